@@ -1,0 +1,4 @@
+//! The host of oktant: files, octree, back ends, viewer.
+
+pub mod mesh;
+pub mod progress;
