@@ -1,7 +1,30 @@
 //! Octree, triangle, traversal and shading of oktant.
 //!
 //! One source: rust-gpu compiles it to SPIR-V for the GPU kernel, rustc compiles it natively for the CPU back end and
-//! its tests.
+//! its tests. Nothing here allocates, recurses or panics, and nothing here knows whether it runs on a GPU, except
+//! [`arithmetic`] and [`buffer`], which name the few places where the two sides need different instructions.
+//!
+//! The parts that can be exchanged are types behind a trait each: [`triangle_test::TriangleTest`],
+//! [`box_test::BoxTest`] and [`traversal::Traversal`]. They are put together at compile time, for example
+//! `Revelles<KayKajiya, Watertight>`; [`traversal::Standard`] names the combination that oktant uses.
 #![no_std]
 
+pub mod aabb;
+pub mod arithmetic;
+pub mod box_test;
+pub mod buffer;
+pub mod camera;
+pub mod frame;
+pub mod hit;
+pub mod normal;
+pub mod octree;
+pub mod orbit;
 pub mod ray;
+pub mod render;
+pub mod revelles;
+pub mod scene;
+pub mod secondary_origin;
+pub mod shading;
+pub mod traversal;
+pub mod triangle;
+pub mod triangle_test;

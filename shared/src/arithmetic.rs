@@ -1,0 +1,143 @@
+//! Arithmetic whose rounding matters, under names.
+//!
+//! A GPU driver may contract `a * b + c` into one rounding, rustc never does. Whatever must round alike in two
+//! triangles that share an edge, or must round only once, is written with the functions below; everything else may
+//! round as it likes.
+
+use glam::Vec3;
+#[cfg(target_arch = "spirv")]
+use num_traits::Float;
+
+/// The smaller of two numbers; `b` where they cannot be ordered.
+///
+/// Written as a comparison because SPIR-V leaves the result of its minimum open when an operand is NaN.
+pub fn min(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// The larger of two numbers; `b` where they cannot be ordered.
+pub fn max(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// The smallest component.
+pub fn min_component(v: Vec3) -> f32 {
+    min(v.x, min(v.y, v.z))
+}
+
+/// The largest component.
+pub fn max_component(v: Vec3) -> f32 {
+    max(v.x, max(v.y, v.z))
+}
+
+/// Whether a number is neither infinite nor NaN.
+///
+/// Looks at the bits: a shader compiler may assume that no operand of a comparison is NaN.
+pub fn is_finite(x: f32) -> bool {
+    x.to_bits() & 0x7f80_0000 != 0x7f80_0000
+}
+
+/// Whether all components are neither infinite nor NaN.
+pub fn is_finite_vector(v: Vec3) -> bool {
+    is_finite(v.x) && is_finite(v.y) && is_finite(v.z)
+}
+
+/// `a * b + c`, rounded once.
+///
+/// On a GPU this is the instruction `Fma`, which Vulkan allows to round twice; natively f64 holds the product exactly,
+/// so that the result differs from a true fused one only where the f64 sum lies within 2^-53 of a tie.
+pub fn fused_multiply_add(a: f32, b: f32, c: f32) -> f32 {
+    #[cfg(target_arch = "spirv")]
+    {
+        a.mul_add(b, c)
+    }
+    #[cfg(not(target_arch = "spirv"))]
+    {
+        (f64::from(a) * f64::from(b) + f64::from(c)) as f32
+    }
+}
+
+/// [`fused_multiply_add`] in each component, with the same `a`.
+pub fn fused_multiply_add_vector(a: f32, b: Vec3, c: Vec3) -> Vec3 {
+    Vec3::new(
+        fused_multiply_add(a, b.x, c.x),
+        fused_multiply_add(a, b.y, c.y),
+        fused_multiply_add(a, b.z, c.z),
+    )
+}
+
+/// `c - a * b`, rounded the same way wherever it stands: once on a GPU, twice natively.
+pub fn multiply_subtract(a: f32, b: f32, c: f32) -> f32 {
+    #[cfg(target_arch = "spirv")]
+    {
+        (-a).mul_add(b, c)
+    }
+    #[cfg(not(target_arch = "spirv"))]
+    {
+        c - a * b
+    }
+}
+
+/// `a * b - c * d`, exactly antisymmetric: swapping the products flips the sign and nothing else.
+///
+/// This is the edge function of the watertight triangle test; two triangles that share an edge see it with opposite
+/// sign, so that none of the ray's crossings falls between them. Natively the plain expression has the property. On a
+/// GPU a driver may contract it into `fma(a, b, -(c * d))`, which has not, so there it is Kahan's difference of products
+/// (C.-P. Jeannerod, N. Louvet, J.-M. Muller, "Further analysis of Kahan's algorithm for the accurate computation of
+/// 2x2 determinants", Math. Comp. 82, 2013), whose error of 1.5 units in the last place never changes a sign.
+pub fn difference_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
+    #[cfg(target_arch = "spirv")]
+    {
+        let product = c * d;
+        let difference = a.mul_add(b, -product);
+        let error = (-c).mul_add(d, product);
+        difference + error
+    }
+    #[cfg(not(target_arch = "spirv"))]
+    {
+        a * b - c * d
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fused_multiply_add_rounds_once() {
+        let a = 1.0 + f32::EPSILON;
+        assert_eq!(
+            fused_multiply_add(a, a, -(1.0 + 2.0 * f32::EPSILON)),
+            f32::EPSILON * f32::EPSILON
+        );
+        assert_eq!(
+            a * a - (1.0 + 2.0 * f32::EPSILON),
+            0.0,
+            "the plain expression rounds twice"
+        );
+    }
+
+    #[test]
+    fn difference_of_products_is_antisymmetric() {
+        let mut x = 0.1_f32;
+        let mut next = || {
+            x = (x * 997.0 + 0.123_456_7) % 1.0;
+            x - 0.5
+        };
+        for _ in 0..100_000 {
+            let (a, b, c, d) = (next(), next(), next(), next());
+            assert_eq!(difference_of_products(a, b, c, d), -difference_of_products(c, d, a, b));
+        }
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_are_seen() {
+        for x in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            assert!(!is_finite(x));
+            assert!(!is_finite_vector(Vec3::new(0.0, x, 0.0)));
+        }
+        for x in [0.0, -0.0, 1e-45, f32::MAX, f32::MIN] {
+            assert!(is_finite(x));
+        }
+    }
+}

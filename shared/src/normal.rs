@@ -1,0 +1,63 @@
+//! Normals at a hit.
+
+use crate::arithmetic::max_component;
+use crate::buffer::load;
+use crate::hit::Hit;
+use crate::scene::Scene;
+use crate::triangle::Triangle;
+use glam::Vec3;
+#[cfg(target_arch = "spirv")]
+use num_traits::Float;
+
+/// The unit normal of a triangle's plane, on the side from which its corners run counter-clockwise; zero for a triangle
+/// without area.
+pub fn face_normal(triangle: &Triangle) -> Vec3 {
+    let edge_ab = triangle.b - triangle.a;
+    let edge_ac = triangle.c - triangle.a;
+    // Scaled first: the product of the edges of a small triangle of a small mesh would underflow.
+    let size = max_component(edge_ab.abs()) + max_component(edge_ac.abs());
+    if size > f32::MIN_POSITIVE {
+        unit_or_zero((edge_ab / size).cross(edge_ac / size))
+    } else {
+        Vec3::ZERO
+    }
+}
+
+/// The normal interpolated between a triangle's corners ("Phong shading": B. T. Phong, "Illumination for computer
+/// generated pictures", CACM 18(6), 1975), of unit length; `otherwise` where the mesh has none there or the three cancel.
+pub fn interpolated_normal(scene: &Scene<'_>, triangle: &Triangle, hit: &Hit, otherwise: Vec3) -> Vec3 {
+    let a = load(scene.vertices, triangle.vertex_a).normal;
+    let b = load(scene.vertices, triangle.vertex_b).normal;
+    let c = load(scene.vertices, triangle.vertex_c).normal;
+    let normal = unit_or_zero(a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v);
+    if normal == Vec3::ZERO { otherwise } else { normal }
+}
+
+/// A vector of the same direction and length 1; zero where the squared length is below 1e-20.
+fn unit_or_zero(v: Vec3) -> Vec3 {
+    let squared = v.dot(v);
+    if squared > 1e-20 {
+        v / squared.sqrt()
+    } else {
+        Vec3::ZERO
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bytemuck::Zeroable;
+
+    #[test]
+    fn face_normals_at_every_scale() {
+        for size in [1e-18, 1e-6, 1.0, 1e6, 1e18] {
+            let triangle = Triangle {
+                b: Vec3::X * size,
+                c: Vec3::Y * size,
+                ..Triangle::zeroed()
+            };
+            assert_eq!(face_normal(&triangle), Vec3::Z, "size {size}");
+        }
+        assert_eq!(face_normal(&Triangle::zeroed()), Vec3::ZERO);
+    }
+}

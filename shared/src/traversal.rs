@@ -1,0 +1,22 @@
+//! Ray against scene: the interface.
+
+use crate::box_test::KayKajiya;
+use crate::hit::Hit;
+use crate::ray::Ray;
+use crate::revelles::Revelles;
+use crate::scene::Scene;
+use crate::triangle_test::Watertight;
+
+/// A way to find a ray's hits among all triangles of a scene.
+pub trait Traversal {
+    /// The hit with the smallest `t` within the ray's limits, of equal ones the triangle with the lowest id.
+    ///
+    /// A miss has the ray's `t_max` and no triangle.
+    fn closest_hit(scene: &Scene<'_>, ray: &Ray) -> Hit;
+
+    /// Whether anything lies within the ray's limits.
+    fn any_hit(scene: &Scene<'_>, ray: &Ray) -> bool;
+}
+
+/// The combination that oktant renders with.
+pub type Standard = Revelles<KayKajiya, Watertight>;
