@@ -1,1 +1,119 @@
-fn main() {}
+//! Compiles oktant's kernel, or checks that the committed module still belongs to its sources.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Parser;
+use oktant_kernel_builder::{Compiler, Error, MANIFEST_FILE, Manifest, disassemble};
+
+/// Compiles oktant's kernel to SPIR-V with rust-gpu and writes the module and its manifest.
+///
+/// Exit code: 0 when all is well, 1 when not (one sentence says what to do), 2 for a wrong command line.
+#[derive(Debug, Parser)]
+#[command(version)]
+struct Arguments {
+    /// Compile and compare with what is there instead of writing.
+    #[arg(long, group = "mode")]
+    check: bool,
+    /// Compare only the hash of the sources; needs no compiler.
+    #[arg(long, group = "mode")]
+    hash: bool,
+    /// Print the module that is there as SPIR-V assembly.
+    #[arg(long, group = "mode")]
+    disassemble: bool,
+    /// The kernel crate [default: kernel, in oktant's workspace].
+    #[arg(long = "crate", value_name = "DIR")]
+    crate_dir: Option<PathBuf>,
+    /// Where the module and its manifest belong [default: compiled, in the kernel crate].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(sentence) => {
+            println!("{sentence}");
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<String, Error> {
+    let crate_dir = arguments
+        .crate_dir
+        .clone()
+        .unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
+    let out = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| crate_dir.join("compiled"));
+    if arguments.disassemble {
+        let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
+        return disassemble(&read(&out.join(manifest.file))?);
+    }
+    if arguments.check || arguments.hash {
+        return check(&crate_dir, &out, arguments.check);
+    }
+    let (module, manifest) = Compiler::find(&crate_dir)?.compile(&crate_dir)?;
+    manifest.write(&module, &out)?;
+    Ok(format!(
+        "Wrote {} ({} bytes, {} entry points) and its manifest.",
+        out.join(&manifest.file).display(),
+        module.len(),
+        manifest.entry_points.len()
+    ))
+}
+
+fn check(crate_dir: &Path, out: &Path, compile: bool) -> Result<String, Error> {
+    let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
+    manifest.check_sources(crate_dir)?;
+    let module = read(&out.join(&manifest.file))?;
+    manifest.check_module(&module)?;
+    if !compile {
+        return Ok("The compiled kernel belongs to its sources.".into());
+    }
+    let compiler = match Compiler::find(crate_dir) {
+        Ok(compiler) if compiler.version() == manifest.rustc => compiler,
+        Ok(compiler) => {
+            return Ok(format!(
+                "The compiled kernel belongs to its sources; its bytes were not compared, because it was compiled by {} \
+                 and here is {}.",
+                manifest.rustc,
+                compiler.version()
+            ));
+        }
+        Err(Error::NoCompiler) => {
+            return Ok(
+                "The compiled kernel belongs to its sources; its bytes were not compared, because rust-gpu's compiler is \
+                 not installed."
+                    .into(),
+            );
+        }
+        Err(error) => return Err(error),
+    };
+    let (fresh, described) = compiler.compile(crate_dir)?;
+    if fresh != module {
+        return Err(Error::Stale(format!(
+            "{} compiles the same sources to other bytes",
+            compiler.version()
+        )));
+    }
+    if described != manifest {
+        return Err(Error::Stale(
+            "the manifest is not what the builder would write".into(),
+        ));
+    }
+    Ok("The compiled kernel is, byte for byte, what its sources compile to.".into())
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, Error> {
+    fs::read(path).map_err(|source| Error::Read {
+        path: path.to_path_buf(),
+        source,
+    })
+}

@@ -1,0 +1,129 @@
+//! rust-gpu's compiler: where it is and how it is called.
+
+use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use spirv_builder::{ShaderPanicStrategy, SpirvBuilder, SpirvMetadata};
+
+use crate::{Error, MODULE_FILE, Manifest, entry_points, sha256, source_hash};
+
+/// What the kernel is compiled for: Vulkan 1.2 is the oldest that the wgpu back end asks for.
+pub const TARGET: &str = "spirv-unknown-vulkan1.2";
+
+/// rust-gpu's version; spirv-std, spirv-builder and the compiler have to agree on it.
+const RUST_GPU: &str = "0.10.0";
+
+/// Name under which a toolchain with rust-gpu built in is registered with rustup.
+const TOOLCHAIN: &str = "rust-gpu";
+
+/// A compiler that rust-gpu can work in.
+#[derive(Clone, Debug)]
+pub struct Compiler {
+    toolchain: String,
+    codegen: PathBuf,
+    version: String,
+}
+
+impl Compiler {
+    /// The toolchain `rust-gpu` if rustup knows it; else, with the feature `rustup`, the one that rust-gpu's installer
+    /// downloads and builds for the crate in `crate_dir`.
+    ///
+    /// # Errors
+    /// [`Error::NoCompiler`] where there is none, [`Error::Toolchain`] where it lacks rust-gpu, [`Error::Install`].
+    pub fn find(crate_dir: &Path) -> Result<Self, Error> {
+        let Some(sysroot) = rustc(TOOLCHAIN, &["--print", "sysroot"]) else {
+            return Self::install(crate_dir);
+        };
+        let codegen = Path::new(&sysroot)
+            .join("lib")
+            .join(format!("{DLL_PREFIX}rustc_codegen_spirv{DLL_SUFFIX}"));
+        if !codegen.is_file() {
+            return Err(Error::Toolchain {
+                toolchain: TOOLCHAIN.into(),
+                reason: format!("there is no {}", codegen.display()),
+            });
+        }
+        Self::new(TOOLCHAIN.into(), codegen)
+    }
+
+    #[cfg(feature = "rustup")]
+    fn install(crate_dir: &Path) -> Result<Self, Error> {
+        let backend =
+            cargo_gpu_install::install::Install::from_shader_crate(crate_dir.to_path_buf())
+                .run()
+                .map_err(|error| Error::Install(format!("{error:#}")))?;
+        Self::new(
+            backend.toolchain_channel,
+            backend.rustc_codegen_spirv_location,
+        )
+    }
+
+    #[cfg(not(feature = "rustup"))]
+    fn install(_crate_dir: &Path) -> Result<Self, Error> {
+        Err(Error::NoCompiler)
+    }
+
+    fn new(toolchain: String, codegen: PathBuf) -> Result<Self, Error> {
+        match rustc(&toolchain, &["--version"]) {
+            Some(version) => Ok(Compiler {
+                toolchain,
+                codegen,
+                version,
+            }),
+            None => Err(Error::Toolchain {
+                toolchain,
+                reason: "its rustc does not tell its version".into(),
+            }),
+        }
+    }
+
+    /// `rustc --version` of this compiler.
+    pub fn version(&self) -> &str {
+        &self.version
+    }
+
+    /// Compiles the crate in `crate_dir` and describes the result. Cargo's messages go to standard error.
+    ///
+    /// # Errors
+    /// [`Error::Compile`] where rust-gpu refuses the crate, and what [`source_hash`] and [`entry_points`] return.
+    pub fn compile(&self, crate_dir: &Path) -> Result<(Vec<u8>, Manifest), Error> {
+        let sources = source_hash(crate_dir)?;
+        let mut builder = SpirvBuilder::new(crate_dir, TARGET);
+        builder.toolchain_overwrite = Some(self.toolchain.clone());
+        builder.rustc_codegen_spirv_location = Some(self.codegen.clone());
+        builder.release = true;
+        builder.shader_panic_strategy = ShaderPanicStrategy::SilentExit;
+        builder.spirv_metadata = SpirvMetadata::None;
+        let built = builder
+            .build()
+            .map_err(|error| Error::Compile(error.to_string()))?;
+        let path = built.module.unwrap_single();
+        let module = fs::read(path).map_err(|source| Error::Read {
+            path: path.to_path_buf(),
+            source,
+        })?;
+        let manifest = Manifest {
+            file: MODULE_FILE.into(),
+            sha256: sha256(&module),
+            sources,
+            target: TARGET.into(),
+            rust_gpu: RUST_GPU.into(),
+            rustc: self.version.clone(),
+            entry_points: entry_points(&module)?,
+        };
+        Ok((module, manifest))
+    }
+}
+
+/// What the toolchain's `rustc` prints, or nothing where there is no such toolchain.
+fn rustc(toolchain: &str, arguments: &[&str]) -> Option<String> {
+    let output = Command::new("rustc")
+        .arg(format!("+{toolchain}"))
+        .args(arguments)
+        .output()
+        .ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    (output.status.success()).then(|| text.trim().to_owned())
+}
