@@ -1,22 +1,15 @@
 //! Entry points of oktant's GPU kernel, compiled to SPIR-V by rust-gpu.
+//!
+//! An entry point guards against invocations beyond the end of its buffers, calls a function of `oktant-shared` and
+//! stores the result. Descriptor set 0 holds the scene, set 1 the frame, set 2 what is read and written per invocation.
 #![cfg_attr(target_arch = "spirv", no_std)]
+#![expect(
+    clippy::too_many_arguments,
+    reason = "each buffer and each built-in of an entry point is an argument of its own"
+)]
 
-use glam::{UVec3, Vec4};
-use spirv_std::spirv;
-
-/// Writes `a[i] * b[i] + c[i]`, component by component, to `result[i]`.
-///
-/// Tests read from it whether a driver rounds once (a fused multiply-add) or twice.
-#[spirv(compute(threads(64)))]
-pub fn probe_fused_multiply_add(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] a: &[Vec4],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] b: &[Vec4],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] c: &[Vec4],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] result: &mut [Vec4],
-) {
-    let index = id.x as usize;
-    if index < result.len() && index < a.len() && index < b.len() && index < c.len() {
-        result[index] = a[index] * b[index] + c[index];
-    }
-}
+pub mod cast;
+pub mod hits;
+pub mod present;
+pub mod probe;
+pub mod render;

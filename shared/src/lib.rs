@@ -19,6 +19,7 @@ pub mod hit;
 pub mod normal;
 pub mod octree;
 pub mod orbit;
+pub mod present;
 pub mod ray;
 pub mod render;
 pub mod revelles;

@@ -50,14 +50,10 @@ impl Compiler {
 
     #[cfg(feature = "rustup")]
     fn install(crate_dir: &Path) -> Result<Self, Error> {
-        let backend =
-            cargo_gpu_install::install::Install::from_shader_crate(crate_dir.to_path_buf())
-                .run()
-                .map_err(|error| Error::Install(format!("{error:#}")))?;
-        Self::new(
-            backend.toolchain_channel,
-            backend.rustc_codegen_spirv_location,
-        )
+        let backend = cargo_gpu_install::install::Install::from_shader_crate(crate_dir.to_path_buf())
+            .run()
+            .map_err(|error| Error::Install(format!("{error:#}")))?;
+        Self::new(backend.toolchain_channel, backend.rustc_codegen_spirv_location)
     }
 
     #[cfg(not(feature = "rustup"))]
@@ -96,9 +92,7 @@ impl Compiler {
         builder.release = true;
         builder.shader_panic_strategy = ShaderPanicStrategy::SilentExit;
         builder.spirv_metadata = SpirvMetadata::None;
-        let built = builder
-            .build()
-            .map_err(|error| Error::Compile(error.to_string()))?;
+        let built = builder.build().map_err(|error| Error::Compile(error.to_string()))?;
         let path = built.module.unwrap_single();
         let module = fs::read(path).map_err(|source| Error::Read {
             path: path.to_path_buf(),

@@ -48,10 +48,7 @@ fn run(arguments: &Arguments) -> Result<String, Error> {
         .crate_dir
         .clone()
         .unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
-    let out = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| crate_dir.join("compiled"));
+    let out = arguments.out.clone().unwrap_or_else(|| crate_dir.join("compiled"));
     if arguments.disassemble {
         let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
         return disassemble(&read(&out.join(manifest.file))?);
@@ -104,9 +101,7 @@ fn check(crate_dir: &Path, out: &Path, compile: bool) -> Result<String, Error> {
         )));
     }
     if described != manifest {
-        return Err(Error::Stale(
-            "the manifest is not what the builder would write".into(),
-        ));
+        return Err(Error::Stale("the manifest is not what the builder would write".into()));
     }
     Ok("The compiled kernel is, byte for byte, what its sources compile to.".into())
 }

@@ -111,10 +111,7 @@ impl Manifest {
             source,
         })?;
         replace(&dir.join(&self.file), module)?;
-        replace(
-            &dir.join(MANIFEST_FILE),
-            format!("{HEADER}{text}").as_bytes(),
-        )
+        replace(&dir.join(MANIFEST_FILE), format!("{HEADER}{text}").as_bytes())
     }
 }
 
@@ -141,7 +138,6 @@ fn replace(path: &Path, content: &[u8]) -> Result<(), Error> {
         .map_err(unwritable)?;
     file.write_all(content).map_err(unwritable)?;
     file.as_file().sync_all().map_err(unwritable)?;
-    file.persist(path)
-        .map_err(|error| unwritable(error.error))?;
+    file.persist(path).map_err(|error| unwritable(error.error))?;
     Ok(())
 }

@@ -16,14 +16,15 @@ pub struct EntryPoint {
     pub name: String,
     /// SPIR-V's execution model, `GLCompute` for compute shaders.
     pub model: String,
-    /// Invocations in a workgroup along x, y and z.
-    pub workgroup: [u32; 3],
+    /// Invocations in a workgroup along x, y and z; only compute shaders have one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub workgroup: Option<[u32; 3]>,
 }
 
 /// The entry points of a SPIR-V module, sorted by name.
 ///
 /// # Errors
-/// [`Error::Module`] where `module` is not SPIR-V, or has an entry point without a fixed workgroup size.
+/// [`Error::Module`] where `module` is not SPIR-V.
 pub fn entry_points(module: &[u8]) -> Result<Vec<EntryPoint>, Error> {
     let module = parse(module)?;
     let mut found = Vec::new();
@@ -35,9 +36,7 @@ pub fn entry_points(module: &[u8]) -> Result<Vec<EntryPoint>, Error> {
             ..,
         ] = entry.operands.as_slice()
         else {
-            return Err(Error::Module(
-                "an OpEntryPoint has the wrong operands".into(),
-            ));
+            return Err(Error::Module("an OpEntryPoint has the wrong operands".into()));
         };
         let workgroup = module
             .execution_modes
@@ -51,12 +50,7 @@ pub fn entry_points(module: &[u8]) -> Result<Vec<EntryPoint>, Error> {
                     Operand::LiteralBit32(z),
                 ] if of == function => Some([*x, *y, *z]),
                 _ => None,
-            })
-            .ok_or_else(|| {
-                Error::Module(format!(
-                    "the entry point {name} has no fixed workgroup size"
-                ))
-            })?;
+            });
         found.push(EntryPoint {
             name: name.clone(),
             model: format!("{model:?}"),

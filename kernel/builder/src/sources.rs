@@ -43,11 +43,10 @@ fn inputs(crate_dir: &Path) -> Result<BTreeMap<String, Vec<u8>>, Error> {
         let manifest_path = dir.join("Cargo.toml");
         let text = read_lf(&manifest_path)?;
         let manifest = parse_toml(&manifest_path, &text)?;
-        let package =
-            string_at(&manifest, &["package", "name"]).ok_or_else(|| Error::Malformed {
-                path: manifest_path.clone(),
-                reason: "it names no package".into(),
-            })?;
+        let package = string_at(&manifest, &["package", "name"]).ok_or_else(|| Error::Malformed {
+            path: manifest_path.clone(),
+            reason: "it names no package".into(),
+        })?;
         if !seen.insert(package.to_owned()) {
             continue;
         }
@@ -56,10 +55,7 @@ fn inputs(crate_dir: &Path) -> Result<BTreeMap<String, Vec<u8>>, Error> {
             let inherited = dependency.get("workspace").and_then(Value::as_bool) == Some(true);
             let (entry, base) = if inherited {
                 let entry = workspace.dependency(key)?;
-                inputs.insert(
-                    format!("workspace.dependencies.{key}"),
-                    entry.to_string().into_bytes(),
-                );
+                inputs.insert(format!("workspace.dependencies.{key}"), entry.to_string().into_bytes());
                 (entry, workspace.root.as_path())
             } else {
                 (dependency, dir.as_path())
@@ -67,13 +63,7 @@ fn inputs(crate_dir: &Path) -> Result<BTreeMap<String, Vec<u8>>, Error> {
             match entry.get("path").and_then(Value::as_str) {
                 Some(path) => queue.push_back(base.join(path)),
                 None => {
-                    outer.insert(
-                        entry
-                            .get("package")
-                            .and_then(Value::as_str)
-                            .unwrap_or(key)
-                            .to_owned(),
-                    );
+                    outer.insert(entry.get("package").and_then(Value::as_str).unwrap_or(key).to_owned());
                 }
             }
         }
@@ -109,7 +99,8 @@ impl Workspace {
             .find(|dir| dir.join("Cargo.lock").is_file())
             .ok_or_else(|| Error::Malformed {
                 path: crate_dir.join("Cargo.toml"),
-                reason: "neither its folder nor one above has a Cargo.lock, which `cargo generate-lockfile` makes".into(),
+                reason: "neither its folder nor one above has a Cargo.lock, which `cargo generate-lockfile` makes"
+                    .into(),
             })?
             .to_path_buf();
         let lock_path = root.join("Cargo.lock");
@@ -142,11 +133,7 @@ impl Workspace {
     /// What the lock file makes of those dependencies of the local crate `package` that are named in `names`.
     ///
     /// The lock file mixes development dependencies in, which do not reach the module.
-    fn locked_dependencies(
-        &self,
-        package: &str,
-        names: &BTreeSet<String>,
-    ) -> Result<Vec<&str>, Error> {
+    fn locked_dependencies(&self, package: &str, names: &BTreeSet<String>) -> Result<Vec<&str>, Error> {
         let entry = self.locked(package)?;
         Ok(references(entry)
             .filter(|reference| names.contains(reference.split(' ').next().unwrap_or_default()))
@@ -154,20 +141,12 @@ impl Workspace {
     }
 
     /// Everything reached from `queue`, as one line a package.
-    fn locked_closure<'a>(
-        &'a self,
-        mut queue: VecDeque<&'a str>,
-    ) -> Result<BTreeMap<String, Vec<u8>>, Error> {
+    fn locked_closure<'a>(&'a self, mut queue: VecDeque<&'a str>) -> Result<BTreeMap<String, Vec<u8>>, Error> {
         let mut closure = BTreeMap::new();
         while let Some(reference) = queue.pop_front() {
             let entry = self.locked(reference)?;
             let field = |name| entry.get(name).and_then(Value::as_str).unwrap_or_default();
-            let key = format!(
-                "Cargo.lock {} {} {}",
-                field("name"),
-                field("version"),
-                field("source")
-            );
+            let key = format!("Cargo.lock {} {} {}", field("name"), field("version"), field("source"));
             if closure.insert(key, field("checksum").into()).is_none() {
                 queue.extend(references(entry));
             }
@@ -186,15 +165,11 @@ impl Workspace {
         self.packages
             .iter()
             .find(|entry| {
-                matches(entry, "name", name)
-                    && matches(entry, "version", version)
-                    && matches(entry, "source", source)
+                matches(entry, "name", name) && matches(entry, "version", version) && matches(entry, "source", source)
             })
             .ok_or_else(|| Error::Malformed {
                 path: self.root.join("Cargo.lock"),
-                reason: format!(
-                    "it has no package {reference}; `cargo metadata` brings it up to date"
-                ),
+                reason: format!("it has no package {reference}; `cargo metadata` brings it up to date"),
             })
     }
 }
@@ -210,14 +185,8 @@ fn references(entry: &Value) -> impl Iterator<Item = &str> {
 
 /// Normal and build dependencies, for any target.
 fn dependencies(manifest: &Table) -> impl Iterator<Item = (&String, &Value)> {
-    let targets = manifest
-        .get("target")
-        .and_then(Value::as_table)
-        .into_iter()
-        .flatten();
-    let tables = targets
-        .filter_map(|(_, target)| target.as_table())
-        .chain([manifest]);
+    let targets = manifest.get("target").and_then(Value::as_table).into_iter().flatten();
+    let tables = targets.filter_map(|(_, target)| target.as_table()).chain([manifest]);
     tables
         .flat_map(|table| [table.get("dependencies"), table.get("build-dependencies")])
         .flatten()
@@ -241,11 +210,7 @@ fn files_under(dir: &Path) -> Result<BTreeMap<String, Vec<u8>>, Error> {
     let mut files = BTreeMap::new();
     for entry in fs::read_dir(dir).map_err(unreadable)? {
         let path = entry.map_err(unreadable)?.path();
-        let name = path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if name.starts_with('.') {
             continue;
         }
@@ -265,12 +230,7 @@ fn read_lf(path: &Path) -> Result<Vec<u8>, Error> {
         path: path.to_path_buf(),
         source,
     })?;
-    let mut next = bytes
-        .iter()
-        .skip(1)
-        .copied()
-        .collect::<Vec<_>>()
-        .into_iter();
+    let mut next = bytes.iter().skip(1).copied().collect::<Vec<_>>().into_iter();
     bytes.retain(|byte| {
         let following = next.next();
         *byte != b'\r' || following != Some(b'\n')
