@@ -1,0 +1,92 @@
+//! What renders: one interface, the CPU and the GPU behind it.
+
+pub mod cpu;
+pub mod gpu;
+
+use crate::picture::Picture;
+use crate::progress::Progress;
+use oktant_shared::frame::Frame;
+use oktant_shared::hit::Hit;
+use oktant_shared::ray::Ray;
+
+/// What a ray asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Query {
+    /// The nearest hit.
+    Closest,
+    /// Whether there is a hit: triangle 0 at `t = 0` if so.
+    Any,
+}
+
+/// The parts that a traversal can be put together from, for casting rays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Parts {
+    /// Box test of Kay and Kajiya, watertight triangle test: what pictures are rendered with.
+    #[default]
+    KayKajiyaWatertight,
+    /// Box test of Williams et al., triangle test of Moller and Trumbore.
+    WilliamsMollerTrumbore,
+}
+
+/// A renderer with a scene.
+pub trait Backend: Send {
+    /// What it runs on, for people.
+    fn name(&self) -> String;
+
+    /// Renders all samples of a frame.
+    ///
+    /// # Errors
+    /// [`BackendError`] where the device gives up or is too small.
+    fn render(&mut self, frame: &Frame, progress: Progress<'_>) -> Result<Picture, BackendError>;
+
+    /// What the first sample of each pixel of a frame sees, row by row from the upper left.
+    ///
+    /// # Errors
+    /// As [`Backend::render`].
+    fn hits(&mut self, frame: &Frame) -> Result<Vec<Hit>, BackendError>;
+
+    /// Traces an array of rays.
+    ///
+    /// # Errors
+    /// As [`Backend::render`].
+    fn cast(&mut self, parts: Parts, query: Query, rays: &[Ray]) -> Result<Vec<Hit>, BackendError>;
+}
+
+/// Why a back end cannot do its work.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum BackendError {
+    /// No adapter, or none that qualifies.
+    #[error("There is no GPU to use ({0}); use --backend cpu.")]
+    NoAdapter(String),
+    /// The adapter refused to open.
+    #[error("The GPU {adapter} could not be opened ({reason}); update its driver or use --backend cpu.")]
+    NoDevice {
+        /// Name of the adapter.
+        adapter: String,
+        /// What the driver says.
+        reason: String,
+    },
+    /// A buffer beyond the device's limits.
+    #[error(
+        "The {what} take {bytes} bytes and {adapter} binds at most {limit} at once; use --backend cpu, or a smaller mesh \
+         or picture."
+    )]
+    TooLarge {
+        /// Which array, in the plural.
+        what: &'static str,
+        /// Its size.
+        bytes: u64,
+        /// The largest size of a storage binding.
+        limit: u64,
+        /// Name of the adapter.
+        adapter: String,
+    },
+    /// Something went wrong on the device while it worked.
+    #[error("The GPU {adapter} failed ({reason}); use --backend cpu.")]
+    Failed {
+        /// Name of the adapter.
+        adapter: String,
+        /// What the driver says.
+        reason: String,
+    },
+}
