@@ -1,1 +1,276 @@
-//! x
+//! The GPU back end: the kernel compiled to SPIR-V, run by wgpu.
+
+mod device;
+mod kernel_module;
+mod layouts;
+mod probe;
+mod readback;
+mod resources;
+
+pub use device::{Gpu, GpuOptions};
+pub use kernel_module::{KernelManifest, ModulePath, compiled_kernel};
+pub use resources::{GpuPicture, GpuScene};
+
+use super::{Backend, BackendError, Parts, Query};
+use crate::picture::Picture;
+use crate::progress::Progress;
+use crate::scene::Scene;
+use glam::Vec4;
+use oktant_shared::frame::Frame;
+use oktant_shared::hit::Hit;
+use oktant_shared::ray::Ray;
+use readback::Timer;
+use std::sync::Arc;
+
+/// Renders on a GPU with a scene that lies in its memory.
+pub struct GpuBackend {
+    gpu: Arc<Gpu>,
+    scene: GpuScene,
+}
+
+/// Camera rays that one dispatch may have: more would keep a slow GPU busy longer than its driver's watchdog allows.
+const RAYS_PER_DISPATCH: u64 = 1 << 24;
+
+/// Edge of the workgroups of the entry points `render` and `hits`.
+const TILE: u32 = 8;
+/// Size of the workgroups of the entry points that take an array.
+const LINE: u32 = 64;
+/// Workgroups in a row of such a dispatch; the kernel counts on it.
+const LINES_PER_ROW: u32 = 32_768;
+
+impl GpuBackend {
+    /// Uploads a scene.
+    ///
+    /// # Errors
+    /// [`BackendError::TooLarge`] where an array exceeds what the device can bind, [`BackendError::Failed`].
+    pub fn new(gpu: Arc<Gpu>, scene: &Scene) -> Result<Self, BackendError> {
+        let scene = gpu.upload(scene)?;
+        Ok(GpuBackend { gpu, scene })
+    }
+
+    /// The device.
+    pub fn gpu(&self) -> &Arc<Gpu> {
+        &self.gpu
+    }
+
+    /// Milliseconds that the kernel takes for all samples of a frame, `repeats` times over, by the device's own clock.
+    ///
+    /// # Errors
+    /// [`BackendError::Failed`], also where the device has no clock.
+    pub fn time_render(&self, frame: &Frame, repeats: u32) -> Result<Vec<f64>, BackendError> {
+        let picture = self.gpu.picture(frame.camera.width, frame.camera.height)?;
+        let timer = self.timer()?;
+        (0..repeats)
+            .map(|_| {
+                let mut encoder = self.gpu.encoder();
+                self.gpu
+                    .encode_render(&mut encoder, &self.scene, &picture, frame, Some(&timer));
+                timer.finish(&self.gpu, encoder)
+            })
+            .collect()
+    }
+
+    /// Milliseconds that the kernel takes for an array of rays, `repeats` times over, by the device's own clock.
+    ///
+    /// # Errors
+    /// As [`GpuBackend::time_render`].
+    pub fn time_cast(&self, parts: Parts, query: Query, rays: &[Ray], repeats: u32) -> Result<Vec<f64>, BackendError> {
+        let cast = self.prepare_cast(parts, query, rays)?;
+        let timer = self.timer()?;
+        (0..repeats)
+            .map(|_| {
+                let mut encoder = self.gpu.encoder();
+                cast.encode(&mut encoder, Some(&timer));
+                timer.finish(&self.gpu, encoder)
+            })
+            .collect()
+    }
+
+    fn timer(&self) -> Result<Timer, BackendError> {
+        Timer::new(&self.gpu).ok_or_else(|| self.gpu.failed("it has no timestamp queries"))
+    }
+
+    fn prepare_cast(&self, parts: Parts, query: Query, rays: &[Ray]) -> Result<Cast<'_>, BackendError> {
+        let entry = match (parts, query) {
+            (Parts::KayKajiyaWatertight, Query::Closest) => "closest_kay_kajiya_watertight",
+            (Parts::KayKajiyaWatertight, Query::Any) => "any_kay_kajiya_watertight",
+            (Parts::WilliamsMollerTrumbore, Query::Closest) => "closest_williams_moller_trumbore",
+            (Parts::WilliamsMollerTrumbore, Query::Any) => "any_williams_moller_trumbore",
+        };
+        let gpu = &self.gpu;
+        let frame = Frame {
+            root: self.scene.root,
+            ..bytemuck::Zeroable::zeroed()
+        };
+        let hits = gpu.output("hits", size_of_val(rays) as u64 / 2)?;
+        let input = gpu.input("rays", rays)?;
+        Ok(Cast {
+            pipeline: gpu.pipeline(entry)?,
+            scene: &self.scene,
+            frame: gpu.frame_group(&frame),
+            pass: gpu.group(&gpu.layouts.cast, &[&hits, &input]),
+            hits,
+            workgroups: (rays.len() as u32).div_ceil(LINE),
+        })
+    }
+}
+
+/// An array of rays in the device's memory.
+struct Cast<'a> {
+    pipeline: Arc<wgpu::ComputePipeline>,
+    scene: &'a GpuScene,
+    frame: wgpu::BindGroup,
+    pass: wgpu::BindGroup,
+    hits: wgpu::Buffer,
+    workgroups: u32,
+}
+
+impl Cast<'_> {
+    fn encode(&self, encoder: &mut wgpu::CommandEncoder, timer: Option<&Timer>) {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("cast"),
+            timestamp_writes: timer.map(Timer::writes),
+        });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &self.scene.group, &[]);
+        pass.set_bind_group(1, &self.frame, &[]);
+        pass.set_bind_group(2, &self.pass, &[]);
+        pass.dispatch_workgroups(
+            self.workgroups.min(LINES_PER_ROW),
+            self.workgroups.div_ceil(LINES_PER_ROW),
+            1,
+        );
+    }
+}
+
+impl Backend for GpuBackend {
+    fn name(&self) -> String {
+        self.gpu.name.clone()
+    }
+
+    fn render(&mut self, frame: &Frame, progress: Progress<'_>) -> Result<Picture, BackendError> {
+        let (width, height) = (frame.camera.width, frame.camera.height);
+        let picture = self.gpu.picture(width, height)?;
+        let pixels = u64::from(width) * u64::from(height);
+        let samples_per_dispatch = (RAYS_PER_DISPATCH / pixels.max(1)).clamp(1, u64::from(frame.sample_count)) as u32;
+        let mut done = 0;
+        while done < frame.sample_count {
+            let pass = Frame {
+                first_sample: frame.first_sample + done,
+                sample_count: samples_per_dispatch.min(frame.sample_count - done),
+                ..*frame
+            };
+            self.gpu.render_pass(&self.scene, &picture, &pass)?;
+            self.gpu.wait()?;
+            done += pass.sample_count;
+            progress("rendering", done as f32 / frame.sample_count as f32);
+        }
+        Ok(Picture {
+            width,
+            height,
+            sums: self.gpu.read(&picture.sums)?,
+        })
+    }
+
+    fn hits(&mut self, frame: &Frame) -> Result<Vec<Hit>, BackendError> {
+        let (width, height) = (frame.camera.width, frame.camera.height);
+        let gpu = &self.gpu;
+        let hits = gpu.output("hits", u64::from(width) * u64::from(height) * size_of::<Hit>() as u64)?;
+        let pipeline = gpu.pipeline("hits")?;
+        let frame = gpu.frame_group(frame);
+        let group = gpu.group(&gpu.layouts.picture, &[&hits]);
+        let mut encoder = gpu.encoder();
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&pipeline);
+            pass.set_bind_group(0, &self.scene.group, &[]);
+            pass.set_bind_group(1, &frame, &[]);
+            pass.set_bind_group(2, &group, &[]);
+            pass.dispatch_workgroups(width.div_ceil(TILE), height.div_ceil(TILE), 1);
+        }
+        gpu.queue.submit([encoder.finish()]);
+        gpu.read(&hits)
+    }
+
+    fn cast(&mut self, parts: Parts, query: Query, rays: &[Ray]) -> Result<Vec<Hit>, BackendError> {
+        if rays.is_empty() {
+            return Ok(Vec::new());
+        }
+        let cast = self.prepare_cast(parts, query, rays)?;
+        let mut encoder = self.gpu.encoder();
+        cast.encode(&mut encoder, None);
+        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.read(&cast.hits)
+    }
+}
+
+impl Gpu {
+    /// Queues a pass of samples; they are added to the picture, or overwrite it where the pass begins with sample 0.
+    ///
+    /// Returns before the device has done it. The frame's size must be the picture's.
+    ///
+    /// # Errors
+    /// [`BackendError::Failed`] where the device is lost.
+    pub fn render_pass(&self, scene: &GpuScene, picture: &GpuPicture, frame: &Frame) -> Result<(), BackendError> {
+        let mut encoder = self.encoder();
+        self.encode_render(&mut encoder, scene, picture, frame, None);
+        self.queue.submit([encoder.finish()]);
+        self.check()
+    }
+
+    /// As [`Gpu::render_pass`], and waits for it: returns the milliseconds that the kernel took by the device's own
+    /// clock, or by the host's where the device has none.
+    ///
+    /// # Errors
+    /// [`BackendError::Failed`] where the device is lost.
+    pub fn render_pass_timed(
+        &self,
+        scene: &GpuScene,
+        picture: &GpuPicture,
+        frame: &Frame,
+    ) -> Result<f64, BackendError> {
+        let mut encoder = self.encoder();
+        if let Some(timer) = Timer::new(self) {
+            self.encode_render(&mut encoder, scene, picture, frame, Some(&timer));
+            timer.finish(self, encoder)
+        } else {
+            let start = std::time::Instant::now();
+            self.encode_render(&mut encoder, scene, picture, frame, None);
+            self.queue.submit([encoder.finish()]);
+            self.wait()?;
+            Ok(start.elapsed().as_secs_f64() * 1e3)
+        }
+    }
+
+    fn encode_render(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &GpuScene,
+        picture: &GpuPicture,
+        frame: &Frame,
+        timer: Option<&Timer>,
+    ) {
+        debug_assert_eq!(
+            (frame.camera.width, frame.camera.height),
+            (picture.width, picture.height)
+        );
+        let frame_group = self.frame_group(frame);
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("render"),
+            timestamp_writes: timer.map(Timer::writes),
+        });
+        pass.set_pipeline(&self.render_pipeline);
+        pass.set_bind_group(0, &scene.group, &[]);
+        pass.set_bind_group(1, &frame_group, &[]);
+        pass.set_bind_group(2, &picture.group, &[]);
+        pass.dispatch_workgroups(picture.width.div_ceil(TILE), picture.height.div_ceil(TILE), 1);
+    }
+
+    /// A new picture's sums, for tests of what is written.
+    ///
+    /// # Errors
+    /// [`BackendError::Failed`] where the device is lost.
+    pub fn read_picture(&self, picture: &GpuPicture) -> Result<Vec<Vec4>, BackendError> {
+        self.read(&picture.sums)
+    }
+}

@@ -1,0 +1,81 @@
+//! Which buffers the entry points take.
+
+use wgpu::BindGroupLayout;
+
+/// The layouts of all bind groups and pipelines; the doc comment of `kernel/src/lib.rs` says what is where.
+pub(super) struct Layouts {
+    /// Set 0 of the entry points that trace: nodes, references, triangles, vertices.
+    pub scene: BindGroupLayout,
+    /// Set 1 of those: the frame.
+    pub frame: BindGroupLayout,
+    /// Set 2 of `render` and `hits`: what is written.
+    pub picture: BindGroupLayout,
+    /// Set 2 of the entry points that cast: hits, then rays. Set 0 of the probes with one input.
+    pub cast: BindGroupLayout,
+    /// Set 0 of the probes with two inputs: results, then the inputs.
+    pub probe: BindGroupLayout,
+    pixels: wgpu::PipelineLayout,
+    rays: wgpu::PipelineLayout,
+    probes_of_one: wgpu::PipelineLayout,
+    probes_of_two: wgpu::PipelineLayout,
+}
+
+impl Layouts {
+    pub fn new(device: &wgpu::Device) -> Self {
+        const READ: wgpu::BufferBindingType = wgpu::BufferBindingType::Storage { read_only: true };
+        const WRITE: wgpu::BufferBindingType = wgpu::BufferBindingType::Storage { read_only: false };
+        let group = |label, kinds: &[wgpu::BufferBindingType]| {
+            let entries: Vec<_> = kinds
+                .iter()
+                .zip(0..)
+                .map(|(ty, binding)| wgpu::BindGroupLayoutEntry {
+                    binding,
+                    visibility: wgpu::ShaderStages::COMPUTE,
+                    ty: wgpu::BindingType::Buffer {
+                        ty: *ty,
+                        has_dynamic_offset: false,
+                        min_binding_size: None,
+                    },
+                    count: None,
+                })
+                .collect();
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries: &entries,
+            })
+        };
+        let pipeline = |groups: &[Option<&BindGroupLayout>]| {
+            device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: None,
+                bind_group_layouts: groups,
+                immediate_size: 0,
+            })
+        };
+        let scene = group("scene", &[READ; 4]);
+        let frame = group("frame", &[wgpu::BufferBindingType::Uniform]);
+        let picture = group("picture", &[WRITE]);
+        let cast = group("cast", &[WRITE, READ]);
+        let probe = group("probe", &[WRITE, READ, READ]);
+        Layouts {
+            pixels: pipeline(&[Some(&scene), Some(&frame), Some(&picture)]),
+            rays: pipeline(&[Some(&scene), Some(&frame), Some(&cast)]),
+            probes_of_one: pipeline(&[Some(&cast)]),
+            probes_of_two: pipeline(&[Some(&probe)]),
+            scene,
+            frame,
+            picture,
+            cast,
+            probe,
+        }
+    }
+
+    /// The layout of an entry point's pipeline.
+    pub fn pipeline(&self, entry: &str) -> &wgpu::PipelineLayout {
+        match entry {
+            "render" | "hits" => &self.pixels,
+            "probe_arithmetic" | "probe_color" => &self.probes_of_one,
+            _ if entry.starts_with("probe_") => &self.probes_of_two,
+            _ => &self.rays,
+        }
+    }
+}
