@@ -9,6 +9,18 @@ use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
 use oktant_shared::ray::Ray;
 
+/// What is to render.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BackendChoice {
+    /// A real GPU if there is one, never a software adapter; else the CPU.
+    #[default]
+    Auto,
+    /// The CPU.
+    Cpu,
+    /// The best GPU there is, even a software adapter.
+    Gpu,
+}
+
 /// What a ray asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Query {

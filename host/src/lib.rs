@@ -3,8 +3,11 @@
 pub mod backend;
 pub mod balls;
 pub mod mesh;
+pub mod mesh_source;
 pub mod octree;
+pub mod output;
 pub mod picture;
+pub mod ply;
 pub mod progress;
 pub mod scene;
 pub mod view;

@@ -117,21 +117,23 @@ impl Octree {
         }
         Ok(())
     }
+}
 
-    /// Counts what there is.
-    pub fn statistics(&self) -> OctreeStatistics {
+impl OctreeStatistics {
+    /// Counts what there is in the cells of an octree with so many references.
+    pub fn new(nodes: &[Node], references: usize) -> Self {
         let mut statistics = OctreeStatistics {
             depth: 0,
             inner: 0,
             filled: 0,
             empty: 0,
-            references: self.references.len(),
+            references,
             histogram: Vec::new(),
             fullest: 0,
-            bytes: size_of_val(self.nodes.as_slice()) + size_of_val(self.references.as_slice()),
+            bytes: size_of_val(nodes) + references * size_of::<u32>(),
         };
-        let mut levels = vec![0_u32; self.nodes.len()];
-        for (index, node) in self.nodes.iter().enumerate() {
+        let mut levels = vec![0_u32; nodes.len()];
+        for (index, node) in nodes.iter().enumerate() {
             statistics.depth = statistics.depth.max(levels[index]);
             if node.is_inner() {
                 statistics.inner += 1;

@@ -24,6 +24,10 @@ pub struct Scene {
     pub vertices: Vec<Vertex>,
     /// Which of [`SMOOTH_NORMALS`] and [`VERTEX_COLORS`] the vertices can serve.
     pub features: u32,
+    /// Triangles left out of the octree because they have no area.
+    pub degenerate: u32,
+    /// Triangles left out of the octree because they lie exactly on one with a lower id.
+    pub duplicates: u32,
     /// Corner of the mesh's bounding box with the smallest coordinates, scene units.
     pub low: Vec3,
     /// Corner of the mesh's bounding box with the largest coordinates, scene units.
@@ -83,7 +87,6 @@ impl Scene {
         Scene {
             root: octree.root,
             nodes: octree.nodes,
-            // The same holds for a buffer of references; the octree of anything with an area has some.
             references: octree.references,
             triangles: mesh
                 .triangles
@@ -99,6 +102,8 @@ impl Scene {
                 .collect(),
             vertices,
             features: if has_normals { SMOOTH_NORMALS } else { 0 } | if has_colors { VERTEX_COLORS } else { 0 },
+            degenerate: octree.degenerate,
+            duplicates: octree.duplicates,
             low,
             high,
         }

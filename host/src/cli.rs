@@ -1,0 +1,81 @@
+//! The command line: arguments, and one file for each command.
+
+mod arguments;
+mod engine;
+mod info;
+mod mesh_source;
+mod progress_bar;
+mod render;
+mod view;
+
+use arguments::{Arguments, Command, ViewArguments};
+use clap::{CommandFactory, Parser};
+use std::process::ExitCode;
+use tracing_subscriber::EnvFilter;
+
+/// Runs the command that the process was started with. The exit code is 0 where it succeeded, 2 where the command line
+/// is wrong, 1 for every other failure; a failure is told in one sentence on standard error.
+pub fn run() -> ExitCode {
+    let arguments = Arguments::parse();
+    tracing_subscriber::fmt()
+        .with_env_filter(EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("warn")))
+        .with_writer(std::io::stderr)
+        .without_time()
+        .with_target(false)
+        .init();
+    let result = match arguments.command.unwrap_or(Command::View(ViewArguments::default())) {
+        Command::View(arguments) => view::run(&arguments),
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Info(arguments) => info::run(&arguments),
+        Command::Completions { shell } => {
+            let mut completions = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "oktant", &mut completions);
+            print(&String::from_utf8_lossy(&completions))
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("oktant: {}", failure.sentence);
+            ExitCode::from(failure.code)
+        }
+    }
+}
+
+/// Why a command did not do its work.
+struct Failure {
+    /// One sentence that says what to do.
+    sentence: String,
+    /// 2 where the command line is wrong, else 1.
+    code: u8,
+}
+
+impl Failure {
+    fn usage(sentence: impl Into<String>) -> Self {
+        Failure {
+            sentence: sentence.into(),
+            code: 2,
+        }
+    }
+}
+
+impl<E: std::error::Error> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Failure {
+            sentence: error.to_string(),
+            code: 1,
+        }
+    }
+}
+
+/// Writes to standard output; whoever closed it early wants no more.
+fn print(text: &str) -> Result<(), Failure> {
+    use std::io::Write;
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure {
+            sentence: format!("Standard output cannot be written ({error}); send it somewhere else."),
+            code: 1,
+        }),
+        _ => Ok(()),
+    }
+}

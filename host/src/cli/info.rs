@@ -1,0 +1,132 @@
+//! `oktant info`.
+
+use super::Failure;
+use super::arguments::InfoArguments;
+use glam::DVec3;
+use oktant::backend::gpu::{Gpu, compiled_kernel};
+use oktant::octree::OctreeStatistics;
+use std::fmt::Write;
+
+pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
+    let loaded = arguments.mesh.load()?;
+    let (mesh, scene) = (&loaded.mesh, &loaded.scene);
+    let statistics = OctreeStatistics::new(&scene.nodes, scene.references.len());
+    let mut text = String::new();
+    let mut line = |name: &str, value: String| {
+        writeln!(text, "{name:<12} {value}").expect("a string can be written to");
+    };
+    line("mesh", arguments.mesh.source().to_string());
+    line(
+        "triangles",
+        format!(
+            "{} ({} without area and {} duplicates are left out)",
+            mesh.triangles.len(),
+            scene.degenerate,
+            scene.duplicates
+        ),
+    );
+    let colors = if mesh.colors.is_empty() { "no colours" } else { "colours" };
+    line("vertices", format!("{}, {colors}", mesh.positions.len()));
+    line("box", format!("{} to {}", scene.low, scene.high));
+    if mesh.shift != DVec3::ZERO {
+        line("shift", format!("{} was subtracted from all vertices", mesh.shift));
+    }
+    let root = &scene.root;
+    line(
+        "octree",
+        format!(
+            "{} levels below the root, a cube of {} at {}",
+            statistics.depth,
+            root.size(),
+            root.low
+        ),
+    );
+    line(
+        "nodes",
+        format!(
+            "{} ({} inner, {} leaves with and {} without references)",
+            scene.nodes.len(),
+            statistics.inner,
+            statistics.filled,
+            statistics.empty
+        ),
+    );
+    line(
+        "references",
+        format!(
+            "{}, {:.2} per triangle, {} in the fullest leaf",
+            statistics.references,
+            statistics.references as f64 / mesh.triangles.len() as f64,
+            statistics.fullest
+        ),
+    );
+    line("leaves", histogram(&statistics));
+    line(
+        "bytes",
+        format!(
+            "{}, {:.1} per triangle ({:.1} octree, {:.1} triangles, {:.1} normals and colours)",
+            scene.bytes(),
+            scene.bytes() as f64 / mesh.triangles.len() as f64,
+            statistics.bytes as f64 / mesh.triangles.len() as f64,
+            size_of_val(scene.triangles.as_slice()) as f64 / mesh.triangles.len() as f64,
+            size_of_val(scene.vertices.as_slice()) as f64 / mesh.triangles.len() as f64,
+        ),
+    );
+    line(
+        "time",
+        format!(
+            "{:.1} ms to read, {:.1} ms to build",
+            loaded.reading.as_secs_f64() * 1e3,
+            loaded.building.as_secs_f64() * 1e3
+        ),
+    );
+    let (words, manifest) = compiled_kernel();
+    line(
+        "kernel",
+        format!(
+            "{} bytes, {} entry points, rust-gpu {}",
+            words.len() * 4,
+            manifest.entry_points.len(),
+            manifest.rust_gpu
+        ),
+    );
+    let adapters = Gpu::adapters(&Gpu::instance());
+    if adapters.is_empty() {
+        line("adapter", "none; the CPU renders".into());
+    }
+    for adapter in adapters {
+        let info = adapter.get_info();
+        let kind = match info.device_type {
+            wgpu::DeviceType::Cpu => "software, taken only with --backend gpu",
+            wgpu::DeviceType::DiscreteGpu => "discrete",
+            wgpu::DeviceType::IntegratedGpu => "integrated",
+            wgpu::DeviceType::VirtualGpu => "virtual",
+            wgpu::DeviceType::Other => "of unknown kind",
+        };
+        line(
+            "adapter",
+            format!(
+                "{} ({}, {kind}), binds up to {} MiB at once",
+                info.name,
+                info.backend,
+                adapter.limits().max_storage_buffer_binding_size >> 20
+            ),
+        );
+    }
+    super::print(&text)
+}
+
+/// Leaves by number of references.
+fn histogram(statistics: &OctreeStatistics) -> String {
+    statistics
+        .histogram
+        .iter()
+        .enumerate()
+        .map(|(class, leaves)| match class {
+            0 => format!("{leaves} with 1 reference"),
+            1 => format!("{leaves} with 2"),
+            _ => format!("{leaves} with {} to {}", (1 << (class - 1)) + 1, 1 << class),
+        })
+        .collect::<Vec<_>>()
+        .join(", ")
+}

@@ -1,0 +1,58 @@
+//! Where a mesh comes from: a file, or the program itself.
+
+use crate::balls::balls;
+use crate::mesh::Mesh;
+use crate::ply::{self, PlyError};
+use crate::progress::Progress;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// The Stanford bunny, see `assets/README.md`.
+const BUNNY: &[u8] = include_bytes!("../../assets/bunny.ply");
+
+/// A mesh that can be loaded.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum MeshSource {
+    /// The Stanford bunny, 69,451 triangles, part of the program.
+    #[default]
+    Bunny,
+    /// Seven balls, 4,032 triangles, made by code.
+    Balls,
+    /// A PLY file.
+    File(PathBuf),
+}
+
+impl MeshSource {
+    /// What a person means who names a mesh on the command line, or none.
+    pub fn from_argument(argument: Option<&Path>) -> Self {
+        match argument {
+            None => MeshSource::Bunny,
+            Some(path) if path == Path::new("bunny") => MeshSource::Bunny,
+            Some(path) if path == Path::new("balls") => MeshSource::Balls,
+            Some(path) => MeshSource::File(path.to_path_buf()),
+        }
+    }
+
+    /// Loads the mesh; where it has no normals, they are computed from its faces.
+    ///
+    /// # Errors
+    /// What [`ply::read`] returns.
+    pub fn load(&self, progress: Progress<'_>) -> Result<Mesh, PlyError> {
+        let mesh = match self {
+            MeshSource::Bunny => ply::parse(BUNNY, "the built-in bunny", progress)?,
+            MeshSource::Balls => balls(),
+            MeshSource::File(path) => ply::read(path, progress)?,
+        };
+        Ok(mesh.with_normals())
+    }
+}
+
+impl fmt::Display for MeshSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            MeshSource::Bunny => f.write_str("bunny"),
+            MeshSource::Balls => f.write_str("balls"),
+            MeshSource::File(path) => write!(f, "{}", path.display()),
+        }
+    }
+}
