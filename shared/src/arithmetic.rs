@@ -11,21 +11,25 @@ use num_traits::Float;
 /// The smaller of two numbers; `b` where they cannot be ordered.
 ///
 /// Written as a comparison because SPIR-V leaves the result of its minimum open when an operand is NaN.
+#[inline]
 pub fn min(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
 /// The larger of two numbers; `b` where they cannot be ordered.
+#[inline]
 pub fn max(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
 /// The smallest component.
+#[inline]
 pub fn min_component(v: Vec3) -> f32 {
     min(v.x, min(v.y, v.z))
 }
 
 /// The largest component.
+#[inline]
 pub fn max_component(v: Vec3) -> f32 {
     max(v.x, max(v.y, v.z))
 }
@@ -33,11 +37,13 @@ pub fn max_component(v: Vec3) -> f32 {
 /// Whether a number is neither infinite nor NaN.
 ///
 /// Looks at the bits: a shader compiler may assume that no operand of a comparison is NaN.
+#[inline]
 pub fn is_finite(x: f32) -> bool {
     x.to_bits() & 0x7f80_0000 != 0x7f80_0000
 }
 
 /// Whether all components are neither infinite nor NaN.
+#[inline]
 pub fn is_finite_vector(v: Vec3) -> bool {
     is_finite(v.x) && is_finite(v.y) && is_finite(v.z)
 }
@@ -46,6 +52,7 @@ pub fn is_finite_vector(v: Vec3) -> bool {
 ///
 /// On a GPU this is the instruction `Fma`, which Vulkan allows to round twice; natively f64 holds the product exactly,
 /// so that the result differs from a true fused one only where the f64 sum lies within 2^-53 of a tie.
+#[inline]
 pub fn fused_multiply_add(a: f32, b: f32, c: f32) -> f32 {
     #[cfg(target_arch = "spirv")]
     {
@@ -58,6 +65,7 @@ pub fn fused_multiply_add(a: f32, b: f32, c: f32) -> f32 {
 }
 
 /// [`fused_multiply_add`] in each component, with the same `a`.
+#[inline]
 pub fn fused_multiply_add_vector(a: f32, b: Vec3, c: Vec3) -> Vec3 {
     Vec3::new(
         fused_multiply_add(a, b.x, c.x),
@@ -67,6 +75,7 @@ pub fn fused_multiply_add_vector(a: f32, b: Vec3, c: Vec3) -> Vec3 {
 }
 
 /// `c - a * b`, rounded the same way wherever it stands: once on a GPU, twice natively.
+#[inline]
 pub fn multiply_subtract(a: f32, b: f32, c: f32) -> f32 {
     #[cfg(target_arch = "spirv")]
     {
@@ -85,6 +94,7 @@ pub fn multiply_subtract(a: f32, b: f32, c: f32) -> f32 {
 /// GPU a driver may contract it into `fma(a, b, -(c * d))`, which has not, so there it is Kahan's difference of products
 /// (C.-P. Jeannerod, N. Louvet, J.-M. Muller, "Further analysis of Kahan's algorithm for the accurate computation of
 /// 2x2 determinants", Math. Comp. 82, 2013), whose error of 1.5 units in the last place never changes a sign.
+#[inline]
 pub fn difference_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
     #[cfg(target_arch = "spirv")]
     {

@@ -38,6 +38,7 @@ pub trait BoxTest: Copy {
 }
 
 /// The slab of an axis along which the ray does not move: everything or nothing.
+#[inline]
 fn parallel_slab(origin: f32, low: f32, high: f32) -> Interval {
     if low <= origin && origin <= high {
         Interval { enter: -FAR, exit: FAR }

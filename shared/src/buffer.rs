@@ -4,6 +4,7 @@
 ///
 /// Natively an index out of range panics, as usual. On the GPU there is no check: the host's `validate()` has made sure
 /// that every index in the arrays is in range, and the check costs a tenth of the frame.
+#[inline]
 pub fn load<T: Copy>(elements: &[T], index: u32) -> T {
     #[cfg(target_arch = "spirv")]
     {

@@ -23,6 +23,7 @@ const _: () = assert!(size_of::<Hit>() == 16);
 
 impl Hit {
     /// No hit up to `t_max`.
+    #[inline]
     pub fn miss(t_max: f32) -> Self {
         Hit {
             t: t_max,
@@ -33,6 +34,7 @@ impl Hit {
     }
 
     /// Whether a triangle was hit.
+    #[inline]
     pub fn is_hit(&self) -> bool {
         self.triangle != NO_TRIANGLE
     }

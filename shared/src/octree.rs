@@ -28,6 +28,7 @@ const _: () = assert!(size_of::<Node>() == 8);
 
 impl Node {
     /// Whether the node has children rather than references.
+    #[inline]
     pub fn is_inner(&self) -> bool {
         self.count == INNER
     }
@@ -54,6 +55,7 @@ const _: () = assert!(size_of::<Root>() == 32);
 
 impl Root {
     /// The cube as a box.
+    #[inline]
     pub fn aabb(&self) -> Aabb {
         Aabb {
             low: self.low,
@@ -62,6 +64,7 @@ impl Root {
     }
 
     /// Edge length of the cube, scene units.
+    #[inline]
     pub fn size(&self) -> f32 {
         self.high.x - self.low.x
     }

@@ -28,6 +28,7 @@ const _: () = assert!(size_of::<Ray>() == 32);
 
 impl Ray {
     /// A ray without limits: every hit at `t >= 0` counts.
+    #[inline]
     pub fn new(origin: Vec3, direction: Vec3) -> Self {
         Ray {
             origin,
@@ -68,6 +69,7 @@ const NEGLIGIBLE: f32 = 7.888_609e-31; // 2^-100
 
 impl PreparedRay {
     /// Prepares a ray.
+    #[inline]
     pub fn new(ray: &Ray) -> Self {
         let largest = max_component(ray.direction.abs());
         let exponent = largest.to_bits() >> 23;
@@ -97,11 +99,13 @@ impl PreparedRay {
     }
 }
 
+#[inline]
 fn significant(component: f32) -> f32 {
     if component.abs() < NEGLIGIBLE { 0.0 } else { component }
 }
 
 /// Infinity is a fair limit for `t`, NaN is not.
+#[inline]
 fn is_number(x: f32) -> bool {
     is_finite(x) || x.to_bits() & 0x007f_ffff == 0
 }

@@ -98,6 +98,7 @@ struct Entered {
 const KEPT_BACK: f32 = 1.0 / (1 << 20) as f32;
 
 impl Entered {
+    #[inline]
     fn new<B: BoxTest>(scene: &Scene<'_>, ray: &Ray) -> Self {
         let mut ray = PreparedRay::new(ray);
         let Interval { enter, exit } = B::prepare(&ray).interval(&scene.root.aabb());
@@ -147,6 +148,7 @@ struct Walk {
 }
 
 impl Walk {
+    #[inline]
     fn new(scene: &Scene<'_>, entered: &Entered) -> Self {
         let root = &scene.root;
         let direction = entered.ray.direction;
@@ -182,6 +184,7 @@ impl Walk {
     }
 
     /// Where the ray crosses the three planes through a place.
+    #[inline]
     fn crossings(&self, place: UVec3) -> Vec3 {
         // Exact: the planes of all cells are (see `Root`).
         let plane = self.start + self.step * Vec3::new(place.x as f32, place.y as f32, place.z as f32);
@@ -189,6 +192,7 @@ impl Walk {
     }
 
     /// Goes down to the leaf at the place where the ray enters the current cell.
+    #[inline]
     fn leaf(&mut self, scene: &Scene<'_>) -> Node {
         let mut node = load(scene.nodes, self.node);
         while node.is_inner() {
@@ -211,6 +215,7 @@ impl Walk {
     }
 
     /// Leaves the current leaf for the next cell on the way, unless the ray ends before at `limit`.
+    #[inline]
     fn leave(&mut self, limit: f32) {
         let length = 1 << self.size;
         let exits = self.crossings(self.place + UVec3::splat(length));
@@ -245,10 +250,12 @@ impl Walk {
 }
 
 /// The index of a child, from whether it is the upper one along each axis.
+#[inline]
 fn bits(x: bool, y: bool, z: bool) -> u32 {
     (if x { 1 } else { 0 }) | (if y { 2 } else { 0 }) | (if z { 4 } else { 0 })
 }
 
+#[inline]
 fn reciprocal(component: f32) -> f32 {
     if component.abs() < LEAST_SLOPE {
         1.0 / LEAST_SLOPE

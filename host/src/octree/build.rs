@@ -26,7 +26,7 @@ impl Default for OctreeOptions {
     fn default() -> Self {
         OctreeOptions {
             depth: MAX_DEPTH,
-            leaf: 6,
+            leaf: 8,
             budget: 16,
         }
     }

@@ -17,6 +17,7 @@ pub struct KayKajiya {
 }
 
 impl BoxTest for KayKajiya {
+    #[inline]
     fn prepare(ray: &PreparedRay) -> Self {
         KayKajiya {
             origin: ray.origin,
@@ -24,6 +25,7 @@ impl BoxTest for KayKajiya {
         }
     }
 
+    #[inline]
     fn interval(&self, aabb: &Aabb) -> Interval {
         let x = slab(self.origin.x, self.direction.x, aabb.low.x, aabb.high.x);
         let y = slab(self.origin.y, self.direction.y, aabb.low.y, aabb.high.y);
@@ -35,6 +37,7 @@ impl BoxTest for KayKajiya {
     }
 }
 
+#[inline]
 fn slab(origin: f32, direction: f32, low: f32, high: f32) -> Interval {
     if direction == 0.0 {
         parallel_slab(origin, low, high)

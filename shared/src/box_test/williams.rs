@@ -19,6 +19,7 @@ pub struct Williams {
 }
 
 impl BoxTest for Williams {
+    #[inline]
     fn prepare(ray: &PreparedRay) -> Self {
         Williams {
             origin: ray.origin,
@@ -30,6 +31,7 @@ impl BoxTest for Williams {
         }
     }
 
+    #[inline]
     fn interval(&self, aabb: &Aabb) -> Interval {
         let x = slab(self.origin.x, self.reciprocal.x, aabb.low.x, aabb.high.x);
         let y = slab(self.origin.y, self.reciprocal.y, aabb.low.y, aabb.high.y);
@@ -41,10 +43,12 @@ impl BoxTest for Williams {
     }
 }
 
+#[inline]
 fn reciprocal(component: f32) -> f32 {
     if component == 0.0 { 0.0 } else { 1.0 / component }
 }
 
+#[inline]
 fn slab(origin: f32, reciprocal: f32, low: f32, high: f32) -> Interval {
     if reciprocal == 0.0 {
         parallel_slab(origin, low, high)

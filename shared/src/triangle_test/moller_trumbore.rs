@@ -17,6 +17,7 @@ pub struct MollerTrumbore {
 }
 
 impl TriangleTest for MollerTrumbore {
+    #[inline]
     fn prepare(ray: &PreparedRay) -> Self {
         MollerTrumbore {
             origin: ray.origin,
@@ -24,6 +25,7 @@ impl TriangleTest for MollerTrumbore {
         }
     }
 
+    #[inline]
     fn crossing(&self, triangle: &Triangle) -> Crossing {
         let edge_ab = triangle.b - triangle.a;
         let edge_ac = triangle.c - triangle.a;

@@ -23,6 +23,7 @@ pub struct Watertight {
 }
 
 impl TriangleTest for Watertight {
+    #[inline]
     fn prepare(ray: &PreparedRay) -> Self {
         let size = ray.direction.abs();
         let axis = if size.x >= size.y && size.x >= size.z {
@@ -41,6 +42,7 @@ impl TriangleTest for Watertight {
         }
     }
 
+    #[inline]
     fn crossing(&self, triangle: &Triangle) -> Crossing {
         let a = self.sheared(triangle.a);
         let b = self.sheared(triangle.b);
@@ -66,6 +68,7 @@ impl Watertight {
     /// A corner as the ray sees it: x and y across the ray, z along it in lengths of the direction.
     ///
     /// Computed from the corner alone, so that all triangles that share a corner get the same bits.
+    #[inline]
     fn sheared(&self, corner: Vec3) -> Vec3 {
         let p = rotated(corner, self.axis) - self.origin;
         Vec3::new(
@@ -77,6 +80,7 @@ impl Watertight {
 }
 
 /// The components in cyclic order, the one at `axis` last.
+#[inline]
 fn rotated(v: Vec3, axis: u32) -> Vec3 {
     if axis == 0 {
         Vec3::new(v.y, v.z, v.x)
