@@ -1,0 +1,39 @@
+//! `oktant view`, and `oktant` alone.
+
+use super::Failure;
+use super::arguments::ViewArguments;
+use super::render::render;
+use oktant::viewer::{ViewerError, ViewerOptions};
+use std::path::{Path, PathBuf};
+
+/// The picture that stands in for the window where there is no display.
+const PICTURE: &str = "oktant.png";
+
+pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
+    let options = ViewerOptions {
+        source: arguments.mesh.source(),
+        octree: arguments.mesh.octree.0,
+        view: arguments.look.view(),
+        size: [arguments.size.width, arguments.size.height],
+        backend: arguments.engine.choice(),
+        module: arguments.engine.module(),
+        script: arguments.script.clone(),
+        pictures: PathBuf::from("."),
+    };
+    match oktant::viewer::run(options) {
+        Ok(()) => Ok(()),
+        Err(ViewerError::Script(error)) => Err(Failure::usage(error.to_string())),
+        Err(ViewerError::NoDisplay(reason)) if arguments.script.is_none() => {
+            eprintln!("There is no display to open a window on ({reason}): rendering {PICTURE} instead.");
+            render(
+                &arguments.mesh,
+                Path::new(PICTURE),
+                arguments.size,
+                &arguments.look.view(),
+                &arguments.engine,
+                1,
+            )
+        }
+        Err(error) => Err(error.into()),
+    }
+}
