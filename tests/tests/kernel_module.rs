@@ -1,5 +1,7 @@
 //! The committed kernel: it belongs to its sources, its manifest describes it, and naga understands it.
 
+#![cfg(test)]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -34,6 +34,8 @@ pub unsafe fn pin_environment(keep_flags: bool) {
     // SAFETY: the caller sees to it that no other thread reads the environment.
     unsafe {
         env::set_var("RUSTGPU_CARGOFLAGS", CARGO_FLAGS);
+        // Incremental compilation cuts the code into other pieces; no profile overrides this variable.
+        env::set_var("CARGO_INCREMENTAL", "0");
         if !keep_flags {
             env::remove_var("RUSTGPU_CODEGEN_ARGS");
             env::remove_var("RUSTGPU_RUSTFLAGS");
@@ -75,7 +77,12 @@ impl Compiler {
     fn install(crate_dir: &Path) -> Result<Self, Error> {
         let backend = cargo_gpu_install::install::Install::from_shader_crate(crate_dir.to_path_buf())
             .run()
-            .map_err(|error| Error::Install(format!("{error:#}")))?;
+            .map_err(|error| {
+                // rustup has already printed what follows the first line.
+                let text = format!("{error:#}");
+                let first = text.lines().next().unwrap_or_default();
+                Error::Install(first.trim_end_matches(':').to_owned())
+            })?;
         Self::new(backend.toolchain_channel, backend.rustc_codegen_spirv_location)
     }
 

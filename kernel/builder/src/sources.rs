@@ -9,16 +9,16 @@ use toml::{Table, Value};
 
 use crate::Error;
 use crate::module::hex;
-use crate::workspace::{Workspace, parse_toml, read_lf, string_at};
+use crate::workspace::{Workspace, parse_toml, read_lf, value_at};
 
 /// SHA-256, in hexadecimal digits, of what the module compiled from the crate in `crate_dir` depends on.
 ///
 /// That is, for the crate and every crate it reaches through `path` dependencies: `Cargo.toml` and all files under
-/// `src`; from the workspace's `Cargo.toml`: the edition and the entries of `[workspace.dependencies]` that those crates
-/// inherit; from `Cargo.lock`: name, version and checksum of every package that they reach. A change of the host or of
-/// its dependencies therefore leaves the hash as it is. Line endings count as LF and files are named by package, so the
-/// hash is the same in any directory and on any system. Hidden files (editors
-/// put them there) and files named `tests.rs` (rust-gpu never sees them) do not count.
+/// `src`; from the workspace's `Cargo.toml`: the edition, the profile's exceptions for single packages and the entries
+/// of `[workspace.dependencies]` that those crates inherit; from `Cargo.lock`: name, version and checksum of every
+/// package that they reach. A change of the host or of its dependencies therefore leaves the hash as it is. Line endings
+/// count as LF and files are named by package, so the hash is the same in any directory and on any system. Hidden files
+/// (editors put them there) and files named `tests.rs` (rust-gpu never sees them) do not count.
 ///
 /// # Errors
 /// [`Error::Read`] for a file that is missing or unreadable, [`Error::Malformed`] for a `Cargo.toml` or `Cargo.lock`
@@ -45,10 +45,12 @@ fn inputs(crate_dir: &Path) -> Result<BTreeMap<String, Vec<u8>>, Error> {
         let manifest_path = dir.join("Cargo.toml");
         let text = read_lf(&manifest_path)?;
         let manifest = parse_toml(&manifest_path, &text)?;
-        let package = string_at(&manifest, &["package", "name"]).ok_or_else(|| Error::Malformed {
-            path: manifest_path.clone(),
-            reason: "it names no package".into(),
-        })?;
+        let package = value_at(&manifest, &["package", "name"])
+            .and_then(Value::as_str)
+            .ok_or_else(|| Error::Malformed {
+                path: manifest_path.clone(),
+                reason: "it names no package".into(),
+            })?;
         if !seen.insert(package.to_owned()) {
             continue;
         }
@@ -76,8 +78,10 @@ fn inputs(crate_dir: &Path) -> Result<BTreeMap<String, Vec<u8>>, Error> {
         }
     }
     inputs.extend(workspace.locked_closure(locked)?);
-    if let Some(edition) = string_at(&workspace.manifest, &["workspace", "package", "edition"]) {
-        inputs.insert("workspace.package.edition".into(), edition.into());
+    for keys in [["workspace", "package", "edition"], ["profile", "release", "package"]] {
+        if let Some(value) = value_at(&workspace.manifest, &keys) {
+            inputs.insert(keys.join("."), value.to_string().into());
+        }
     }
     Ok(inputs)
 }

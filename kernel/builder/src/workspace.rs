@@ -131,12 +131,10 @@ fn references(entry: &Value) -> impl Iterator<Item = &str> {
         .filter_map(Value::as_str)
 }
 
-/// The string under nested keys, if there is one.
-pub(crate) fn string_at<'a>(table: &'a Table, path: &[&str]) -> Option<&'a str> {
+/// What stands under nested keys, if there is anything.
+pub(crate) fn value_at<'a>(table: &'a Table, path: &[&str]) -> Option<&'a Value> {
     let (first, rest) = path.split_first()?;
-    rest.iter()
-        .try_fold(table.get(*first)?, |value, key| value.get(key))?
-        .as_str()
+    rest.iter().try_fold(table.get(*first)?, |value, key| value.get(key))
 }
 
 /// A file with its line endings turned into LF.
