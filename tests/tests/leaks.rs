@@ -41,9 +41,7 @@ fn isolated_background(hits: &[Hit]) -> usize {
     let hit = |x: u32, y: u32| hits[(y * WIDTH + x) as usize].is_hit();
     (1..HEIGHT - 1)
         .flat_map(|y| (1..WIDTH - 1).map(move |x| (x, y)))
-        .filter(|&(x, y)| {
-            !hit(x, y) && (y - 1..=y + 1).all(|b| (x - 1..=x + 1).all(|a| (a, b) == (x, y) || hit(a, b)))
-        })
+        .filter(|&(x, y)| !hit(x, y) && (y - 1..=y + 1).all(|b| (x - 1..=x + 1).all(|a| (a, b) == (x, y) || hit(a, b))))
         .count()
 }
 
@@ -62,7 +60,10 @@ fn no_isolated_background(backend_of: impl Fn(&Arc<Scene>) -> Box<dyn Backend>) 
                 ..View::default()
             };
             let hits = backend.hits(&view.frame(&scene, WIDTH, HEIGHT)).unwrap();
-            assert!(hits.iter().filter(|hit| hit.is_hit()).count() > 100_000, "{name} fills the picture");
+            assert!(
+                hits.iter().filter(|hit| hit.is_hit()).count() > 100_000,
+                "{name} fills the picture"
+            );
             assert_eq!(isolated_background(&hits), 0, "{name} from {azimuth}, {elevation}");
         }
     }
@@ -129,18 +130,17 @@ fn returned(mesh: &Mesh, distance: f32, count: usize) -> (usize, f32) {
             let again = Standard::any_hit(&view, &Ray::new(start, out));
             (
                 usize::from(again),
-                moved / (triangle.b - triangle.a).length().max((triangle.c - triangle.a).length()),
+                moved
+                    / (triangle.b - triangle.a)
+                        .length()
+                        .max((triangle.c - triangle.a).length()),
             )
         })
         .reduce(|| (0, 0.0), |a, b| (a.0 + b.0, a.1.max(b.1)))
 }
 
 fn exact_point(triangle: &oktant_shared::triangle::Triangle, hit: &Hit) -> DVec3 {
-    let corners = DMat3::from_cols(
-        triangle.a.as_dvec3(),
-        triangle.b.as_dvec3(),
-        triangle.c.as_dvec3(),
-    );
+    let corners = DMat3::from_cols(triangle.a.as_dvec3(), triangle.b.as_dvec3(), triangle.c.as_dvec3());
     let (u, v) = (f64::from(hit.u), f64::from(hit.v));
     corners * DVec3::new(1.0 - u - v, u, v)
 }
@@ -168,7 +168,9 @@ fn rays_that_leave_a_convex_mesh_do_not_meet_it() {
     for (scale, offset, distance) in cases {
         let mesh = transformed(&sphere, scale, offset);
         let (again, moved) = returned(&mesh, distance, 200_000);
-        println!("scale {scale:e}, offset {offset}, from {distance} radii: {again} of 200,000 return, moved {moved:e} edges");
+        println!(
+            "scale {scale:e}, offset {offset}, from {distance} radii: {again} of 200,000 return, moved {moved:e} edges"
+        );
         assert_eq!(again, 0);
     }
 }

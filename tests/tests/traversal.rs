@@ -3,8 +3,8 @@
 use oktant::mesh::Mesh;
 use oktant::mesh_source::MeshSource;
 use oktant::octree::OctreeOptions;
-use oktant::oracle::judge::{Answer, judge_any, judge_closest};
 use oktant::oracle::Oracle;
+use oktant::oracle::judge::{Answer, judge_any, judge_closest};
 use oktant::progress::silent;
 use oktant::scene::Scene;
 use oktant_shared::box_test::{KayKajiya, Williams};
@@ -74,11 +74,7 @@ impl Stage {
 
     fn any<V: Traversal>(&self, rays: &[Ray]) -> Tally {
         self.tally(rays, |ray| {
-            judge_any(
-                &self.oracle,
-                &for_oracle(ray),
-                V::any_hit(&self.scene.view(), ray),
-            )
+            judge_any(&self.oracle, &for_oracle(ray), V::any_hit(&self.scene.view(), ray))
         })
     }
 
@@ -97,9 +93,18 @@ impl Stage {
                 let t = hit.t as f32;
                 match index % 4 {
                     0 => Ray { t_max: t * 0.5, ..*ray },
-                    1 => Ray { t_max: t * 0.99, ..*ray },
-                    2 => Ray { t_max: t * 1.01, ..*ray },
-                    _ => Ray { t_min: t * 1.01, ..*ray },
+                    1 => Ray {
+                        t_max: t * 0.99,
+                        ..*ray
+                    },
+                    2 => Ray {
+                        t_max: t * 1.01,
+                        ..*ray
+                    },
+                    _ => Ray {
+                        t_min: t * 1.01,
+                        ..*ray
+                    },
                 }
             })
             .collect()
@@ -127,7 +132,12 @@ fn the_standard_traversal_equals_the_oracle() {
             count(stage.name, class, "closest", stage.closest::<Standard>(&rays));
             count(stage.name, class, "any", stage.any::<Standard>(&rays));
             let limited = stage.limited(&rays[..RAYS / 4]);
-            count(stage.name, class, "closest, limited", stage.closest::<Standard>(&limited));
+            count(
+                stage.name,
+                class,
+                "closest, limited",
+                stage.closest::<Standard>(&limited),
+            );
             count(stage.name, class, "any, limited", stage.any::<Standard>(&limited));
         }
     }

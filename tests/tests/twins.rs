@@ -76,7 +76,11 @@ fn sides_agree(name: &str, mesh: &Mesh, module: ModulePath) {
 #[test]
 #[ignore = "needs a Vulkan driver"]
 fn bunny_passed_through() {
-    sides_agree("bunny", &MeshSource::Bunny.load(&silent).unwrap(), ModulePath::Passthrough);
+    sides_agree(
+        "bunny",
+        &MeshSource::Bunny.load(&silent).unwrap(),
+        ModulePath::Passthrough,
+    );
 }
 
 #[test]
@@ -186,7 +190,11 @@ fn arithmetic_probe() {
 fn box_test_probe() {
     let gpu = open(ModulePath::Auto);
     let (origins, targets, corners) = (points(COUNT, 2), points(COUNT, 3), points(COUNT * 2, 4));
-    let rays: Vec<Ray> = origins.iter().zip(&targets).map(|(o, t)| Ray::new(*o, *t - *o)).collect();
+    let rays: Vec<Ray> = origins
+        .iter()
+        .zip(&targets)
+        .map(|(o, t)| Ray::new(*o, *t - *o))
+        .collect();
     let boxes: Vec<[Vec4; 2]> = corners
         .chunks(2)
         .map(|c| [c[0].min(c[1]).extend(0.0), c[0].max(c[1]).extend(0.0)])
@@ -275,8 +283,16 @@ fn secondary_origin_probe() {
     let results = gpu.probe_two("probe_secondary_origin", &hits, &triangles).unwrap();
     for ((hit, triangle), r) in hits.iter().zip(&triangles).zip(&results) {
         let here = secondary_origin(triangle, hit, Vec3::Z);
-        let size = triangle.a.abs().max(triangle.b.abs()).max(triangle.c.abs()).max_element();
-        assert!((r.truncate() - here).abs().max_element() <= size * 1e-6, "{triangle:?} {hit:?}");
+        let size = triangle
+            .a
+            .abs()
+            .max(triangle.b.abs())
+            .max(triangle.c.abs())
+            .max_element();
+        assert!(
+            (r.truncate() - here).abs().max_element() <= size * 1e-6,
+            "{triangle:?} {hit:?}"
+        );
     }
 }
 

@@ -1,7 +1,7 @@
 //! Choosing what renders.
 
-use super::arguments::EngineArguments;
 use super::Failure;
+use super::arguments::EngineArguments;
 use oktant::backend::cpu::Cpu;
 use oktant::backend::gpu::{Gpu, GpuBackend, GpuOptions};
 use oktant::backend::{Backend, BackendChoice, BackendError};

@@ -25,7 +25,11 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
             scene.duplicates
         ),
     );
-    let colors = if mesh.colors.is_empty() { "no colours" } else { "colours" };
+    let colors = if mesh.colors.is_empty() {
+        "no colours"
+    } else {
+        "colours"
+    };
     line("vertices", format!("{}, {colors}", mesh.positions.len()));
     line("box", format!("{} to {}", scene.low, scene.high));
     if mesh.shift != DVec3::ZERO {

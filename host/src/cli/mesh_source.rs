@@ -1,10 +1,10 @@
 //! Where the mesh comes from.
 
+use super::Failure;
 use super::arguments::MeshArguments;
 use super::progress_bar::ProgressBar;
-use super::Failure;
-use oktant::mesh_source::MeshSource;
 use oktant::mesh::Mesh;
+use oktant::mesh_source::MeshSource;
 use oktant::scene::Scene;
 use std::time::{Duration, Instant};
 

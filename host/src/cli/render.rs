@@ -30,7 +30,10 @@ pub fn render(
     engine: &EngineArguments,
     repeat: u32,
 ) -> Result<(), Failure> {
-    if !output.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png")) {
+    if !output
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("png"))
+    {
         return Err(Failure::usage(format!(
             "Pictures are PNG files: give {} a name that ends in .png.",
             output.display()

@@ -1,22 +1,47 @@
 //! rust-gpu's compiler: where it is and how it is called.
 
+use std::env;
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+use std::error::Error as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use oktant_kernel_builder::{Error, MODULE_FILE, Manifest, entry_points, rust_gpu_version, sha256, source_hash};
 use spirv_builder::{ShaderPanicStrategy, SpirvBuilder, SpirvMetadata};
 
-use crate::{Error, MODULE_FILE, Manifest, entry_points, sha256, source_hash};
-
-/// What the kernel is compiled for: Vulkan 1.2 is the oldest that the wgpu back end asks for.
-pub const TARGET: &str = "spirv-unknown-vulkan1.2";
-
-/// rust-gpu's version; spirv-std, spirv-builder and the compiler have to agree on it.
-const RUST_GPU: &str = "0.10.0";
+/// What the kernel is compiled for.
+const TARGET: &str = "spirv-unknown-vulkan1.2";
 
 /// Name under which a toolchain with rust-gpu built in is registered with rustup.
 const TOOLCHAIN: &str = "rust-gpu";
+
+/// What else Cargo is told, so that the sources alone determine the module.
+///
+/// The optimisation level changes the code and debug information brings absolute paths into it, so neither is left to
+/// the workspace's profile or to `CARGO_PROFILE_*`. By time stamps, Cargo takes a file that was replaced by an older one
+/// for unchanged and would leave a stale module to be described as a fresh one; checksums notice.
+const CARGO_FLAGS: &str = "--locked -Zchecksum-freshness \
+    --config profile.release.opt-level=3 --config profile.release.debug=false";
+
+/// Gives spirv-builder [`CARGO_FLAGS`] and, unless `keep_flags`, takes from it the other variables that change the module.
+///
+/// spirv-builder itself clears what an outer Cargo sets: `RUSTFLAGS`, `RUSTUP_TOOLCHAIN`, `CARGO_TARGET_DIR` and so on.
+///
+/// # Safety
+/// No other thread may run: this changes the environment of the process.
+pub unsafe fn pin_environment(keep_flags: bool) {
+    // SAFETY: the caller sees to it that no other thread reads the environment.
+    unsafe {
+        env::set_var("RUSTGPU_CARGOFLAGS", CARGO_FLAGS);
+        // Incremental compilation cuts the code into other pieces; no profile overrides this variable.
+        env::set_var("CARGO_INCREMENTAL", "0");
+        if !keep_flags {
+            env::remove_var("RUSTGPU_CODEGEN_ARGS");
+            env::remove_var("RUSTGPU_RUSTFLAGS");
+        }
+    }
+}
 
 /// A compiler that rust-gpu can work in.
 #[derive(Clone, Debug)]
@@ -52,7 +77,12 @@ impl Compiler {
     fn install(crate_dir: &Path) -> Result<Self, Error> {
         let backend = cargo_gpu_install::install::Install::from_shader_crate(crate_dir.to_path_buf())
             .run()
-            .map_err(|error| Error::Install(format!("{error:#}")))?;
+            .map_err(|error| {
+                // rustup has already printed what follows the first line.
+                let text = format!("{error:#}");
+                let first = text.lines().next().unwrap_or_default();
+                Error::Install(first.trim_end_matches(':').to_owned())
+            })?;
         Self::new(backend.toolchain_channel, backend.rustc_codegen_spirv_location)
     }
 
@@ -92,7 +122,12 @@ impl Compiler {
         builder.release = true;
         builder.shader_panic_strategy = ShaderPanicStrategy::SilentExit;
         builder.spirv_metadata = SpirvMetadata::None;
-        let built = builder.build().map_err(|error| Error::Compile(error.to_string()))?;
+        let built = builder.build().map_err(|error| {
+            Error::Compile(match error.source() {
+                Some(cause) => format!("{error}: {cause}"),
+                None => error.to_string(),
+            })
+        })?;
         let path = built.module.unwrap_single();
         let module = fs::read(path).map_err(|source| Error::Read {
             path: path.to_path_buf(),
@@ -103,7 +138,7 @@ impl Compiler {
             sha256: sha256(&module),
             sources,
             target: TARGET.into(),
-            rust_gpu: RUST_GPU.into(),
+            rust_gpu: rust_gpu_version(crate_dir)?,
             rustc: self.version.clone(),
             entry_points: entry_points(&module)?,
         };

@@ -1,11 +1,16 @@
 //! Compiles oktant's kernel, or checks that the committed module still belongs to its sources.
 
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-use oktant_kernel_builder::{Compiler, Error, MANIFEST_FILE, Manifest, disassemble};
+use oktant_kernel_builder::{Error, MANIFEST_FILE, Manifest, disassemble};
+
+use crate::compiler::Compiler;
+
+mod compiler;
 
 /// Compiles oktant's kernel to SPIR-V with rust-gpu and writes the module and its manifest.
 ///
@@ -26,16 +31,25 @@ struct Arguments {
     #[arg(long = "crate", value_name = "DIR")]
     crate_dir: Option<PathBuf>,
     /// Where the module and its manifest belong [default: compiled, in the kernel crate].
+    ///
+    /// Only with this option do RUSTGPU_CODEGEN_ARGS and RUSTGPU_RUSTFLAGS reach the compiler.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(sentence) => {
-            println!("{sentence}");
-            ExitCode::SUCCESS
-        }
+    let arguments = Arguments::parse();
+    // SAFETY: main has started no thread.
+    unsafe { compiler::pin_environment(arguments.out.is_some()) };
+    match run(&arguments) {
+        // Whoever closed standard output early (`| head`) has seen enough.
+        Ok(text) => match writeln!(io::stdout(), "{text}") {
+            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+                eprintln!("Cannot write to standard output: {error}.");
+                ExitCode::FAILURE
+            }
+            _ => ExitCode::SUCCESS,
+        },
         Err(error) => {
             eprintln!("{error}");
             ExitCode::FAILURE
@@ -44,19 +58,19 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<String, Error> {
-    let crate_dir = arguments
-        .crate_dir
-        .clone()
-        .unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
+    let kernel = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .expect("the builder lies in the folder of the kernel");
+    let crate_dir = arguments.crate_dir.as_deref().unwrap_or(kernel);
     let out = arguments.out.clone().unwrap_or_else(|| crate_dir.join("compiled"));
     if arguments.disassemble {
         let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
         return disassemble(&read(&out.join(manifest.file))?);
     }
     if arguments.check || arguments.hash {
-        return check(&crate_dir, &out, arguments.check);
+        return check(crate_dir, &out, arguments.check);
     }
-    let (module, manifest) = Compiler::find(&crate_dir)?.compile(&crate_dir)?;
+    let (module, manifest) = Compiler::find(crate_dir)?.compile(crate_dir)?;
     manifest.write(&module, &out)?;
     Ok(format!(
         "Wrote {} ({} bytes, {} entry points) and its manifest.",
