@@ -1,4 +1,5 @@
 //! The host of oktant: files, octree, back ends, viewer.
 
 pub mod mesh;
+pub mod ply;
 pub mod progress;
