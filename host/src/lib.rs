@@ -5,6 +5,7 @@ pub mod balls;
 pub mod mesh;
 pub mod mesh_source;
 pub mod octree;
+pub mod oracle;
 pub mod output;
 pub mod picture;
 pub mod ply;

@@ -1,1 +1,8 @@
-//! Tests of oktant across its crates.
+//! Tests of oktant across its crates, and what they share: meshes made by code, classes of rays, the exact reference.
+
+pub mod compare;
+pub mod data;
+pub mod exact;
+pub mod meshes;
+pub mod ray_classes;
+pub mod tally;

@@ -4,7 +4,7 @@ use oktant::mesh::Mesh;
 use oktant::mesh_source::MeshSource;
 use oktant::octree::OctreeOptions;
 use oktant::oracle::Oracle;
-use oktant::oracle::judge::{Answer, judge_any, judge_closest};
+use oktant::oracle::judge::{Answer, Verdict, judge_any, judge_closest};
 use oktant::progress::silent;
 use oktant::scene::Scene;
 use oktant_shared::box_test::{KayKajiya, Williams};
@@ -78,7 +78,7 @@ impl Stage {
         })
     }
 
-    fn tally(&self, rays: &[Ray], judge: impl Fn(&Ray) -> oktant::oracle::judge::Verdict + Sync) -> Tally {
+    fn tally(&self, rays: &[Ray], judge: impl Fn(&Ray) -> Verdict + Sync + Send) -> Tally {
         rays.par_iter().map(judge).collect::<Vec<_>>().into_iter().collect()
     }
 
