@@ -12,3 +12,4 @@ pub mod ply;
 pub mod progress;
 pub mod scene;
 pub mod view;
+pub mod viewer;

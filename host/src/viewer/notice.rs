@@ -1,0 +1,143 @@
+//! What the threads tell the window.
+
+use crate::backend::BackendError;
+use crate::backend::gpu::{Gpu, GpuPicture};
+use crate::output::OutputError;
+use crate::picture::Picture;
+use crate::ply::PlyError;
+use crate::scene::{Scene, SceneError};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+use winit::event_loop::EventLoopProxy;
+
+/// News from a thread.
+#[derive(Debug)]
+pub enum Notice {
+    /// How far a mesh is.
+    Loading {
+        /// Number of the load.
+        load: u64,
+        /// "reading", "building".
+        stage: &'static str,
+        /// Of the stage, 0 to 1.
+        fraction: f32,
+    },
+    /// A mesh is there, or cannot be had.
+    Loaded {
+        /// Number of the load.
+        load: u64,
+        /// What came of it.
+        result: Result<Arc<Scene>, MeshError>,
+    },
+    /// The GPU is open, or cannot be.
+    GpuOpened(Result<OpenGpu, BackendError>),
+    /// A picture, or a better one.
+    Rendered(Rendered),
+    /// A pass is done: so many of the wanted samples are taken.
+    Refined {
+        /// Samples so far.
+        samples: u32,
+        /// Camera rays of the pass.
+        rays: u64,
+        /// Time of the pass.
+        milliseconds: f64,
+    },
+    /// The task is over, because it is done or was cancelled, or because the back end failed.
+    Finished(Result<(), BackendError>),
+    /// A picture was written, or could not be.
+    Saved(Result<PathBuf, SaveError>),
+}
+
+/// An open device, wrapped to be printable.
+#[derive(Clone)]
+pub struct OpenGpu(pub Arc<Gpu>);
+
+impl std::fmt::Debug for OpenGpu {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0.name)
+    }
+}
+
+/// A picture to show.
+#[derive(Debug)]
+pub struct Rendered {
+    /// Number of the picture.
+    pub number: u64,
+    /// Where it lies.
+    pub image: Image,
+    /// Whether it has all its pixels and samples.
+    pub complete: bool,
+}
+
+/// A picture, in the memory of who rendered it.
+#[derive(Clone)]
+pub enum Image {
+    /// In the computer's.
+    Cpu(Arc<Picture>),
+    /// In the GPU's.
+    Gpu(Arc<GpuPicture>),
+}
+
+impl Image {
+    /// Width and height in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        match self {
+            Image::Cpu(picture) => [picture.width, picture.height],
+            Image::Gpu(picture) => [picture.width, picture.height],
+        }
+    }
+}
+
+impl std::fmt::Debug for Image {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let kind = match self {
+            Image::Cpu(_) => "CPU",
+            Image::Gpu(_) => "GPU",
+        };
+        write!(f, "{kind} {:?}", self.size())
+    }
+}
+
+/// Why there is no mesh.
+#[derive(Debug, thiserror::Error)]
+pub enum MeshError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    Ply(#[from] PlyError),
+    /// There is nothing in it to see.
+    #[error("{name}: {source}")]
+    Scene {
+        /// Where the mesh came from.
+        name: String,
+        /// What is missing.
+        source: SceneError,
+    },
+}
+
+/// Why a picture was not saved.
+#[derive(Debug, thiserror::Error)]
+pub enum SaveError {
+    /// It cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// It cannot be rendered.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
+}
+
+/// The way to the window, for any number of threads.
+#[derive(Clone)]
+pub struct Mailbox(Arc<Mutex<EventLoopProxy<Notice>>>);
+
+impl Mailbox {
+    /// The mailbox of an event loop.
+    pub fn new(proxy: EventLoopProxy<Notice>) -> Self {
+        Mailbox(Arc::new(Mutex::new(proxy)))
+    }
+
+    /// Leaves a notice and wakes the window; nobody cares for it once the window is closed.
+    pub fn send(&self, notice: Notice) {
+        let proxy = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        drop(proxy.send_event(notice));
+    }
+}
