@@ -102,3 +102,23 @@ pub enum BackendError {
         reason: String,
     },
 }
+
+impl BackendError {
+    /// What went wrong, in one sentence, where the CPU steps in.
+    pub fn and_the_cpu_renders(&self) -> String {
+        let what = match self {
+            BackendError::NoAdapter(reason) => format!("There is no GPU to use ({reason})"),
+            BackendError::NoDevice { adapter, reason } => {
+                format!("The GPU {adapter} could not be opened ({reason})")
+            }
+            BackendError::TooLarge {
+                what,
+                bytes,
+                limit,
+                adapter,
+            } => format!("The {what} take {bytes} bytes and {adapter} binds at most {limit} at once"),
+            BackendError::Failed { adapter, reason } => format!("The GPU {adapter} failed ({reason})"),
+        };
+        format!("{what}: the CPU renders.")
+    }
+}

@@ -74,6 +74,14 @@ impl PictureFile {
     /// # Errors
     /// [`OutputError::Io`], with nothing left behind and what was there before untouched.
     pub fn save(self, picture: &Picture) -> Result<(), OutputError> {
+        self.save_rgb8(&picture.to_rgb8(), [picture.width, picture.height])
+    }
+
+    /// As [`PictureFile::save`], from red, green and blue of each pixel, sRGB-encoded.
+    ///
+    /// # Errors
+    /// As [`PictureFile::save`].
+    pub fn save_rgb8(self, pixels: &[u8], [width, height]: [u32; 2]) -> Result<(), OutputError> {
         let failed = |source| OutputError::Io {
             path: self.path.clone(),
             source,
@@ -81,12 +89,7 @@ impl PictureFile {
         let mut writer = BufWriter::new(self.temporary.as_file());
         let encoder = PngEncoder::new_with_quality(&mut writer, CompressionType::Default, FilterType::Adaptive);
         encoder
-            .write_image(
-                &picture.to_rgb8(),
-                picture.width,
-                picture.height,
-                ExtendedColorType::Rgb8,
-            )
+            .write_image(pixels, width, height, ExtendedColorType::Rgb8)
             .map_err(|error| {
                 failed(match error {
                     ImageError::IoError(source) => source,

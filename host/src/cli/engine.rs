@@ -31,7 +31,7 @@ impl Engine {
             BackendChoice::Cpu => Ok(cpu()),
             BackendChoice::Gpu => Ok(gpu(true)?),
             BackendChoice::Auto => Ok(gpu(false).unwrap_or_else(|error| {
-                eprintln!("{}", on_the_cpu(&error));
+                eprintln!("{}", error.and_the_cpu_renders());
                 cpu()
             })),
         }
@@ -56,22 +56,5 @@ impl Engine {
                 })
                 .collect(),
         }
-    }
-}
-
-/// Why the CPU steps in, in one sentence.
-fn on_the_cpu(error: &BackendError) -> String {
-    match error {
-        BackendError::NoAdapter(reason) => format!("There is no GPU to use ({reason}): the CPU renders."),
-        BackendError::NoDevice { adapter, reason } => {
-            format!("The GPU {adapter} could not be opened ({reason}): the CPU renders.")
-        }
-        BackendError::TooLarge {
-            what,
-            bytes,
-            limit,
-            adapter,
-        } => format!("The {what} take {bytes} bytes and {adapter} binds at most {limit} at once: the CPU renders."),
-        BackendError::Failed { adapter, reason } => format!("The GPU {adapter} failed ({reason}): the CPU renders."),
     }
 }

@@ -214,14 +214,8 @@ mod tests {
     fn keys_of_all_keyboards() {
         let code = |code| PhysicalKey::Code(code);
         let character = |text: &str| WinitKey::Character(text.into());
-        assert_eq!(
-            key(&character("F"), code(KeyCode::KeyF)),
-            Some(Key::Character('f'))
-        );
-        assert_eq!(
-            key(&character("?"), code(KeyCode::Slash)),
-            Some(Key::Character('?'))
-        );
+        assert_eq!(key(&character("F"), code(KeyCode::KeyF)), Some(Key::Character('f')));
+        assert_eq!(key(&character("?"), code(KeyCode::Slash)), Some(Key::Character('?')));
         assert_eq!(
             key(&character("\u{430}"), code(KeyCode::KeyF)),
             Some(Key::Character('f')),

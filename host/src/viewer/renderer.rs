@@ -165,8 +165,7 @@ impl Worker {
 
     /// Tells the window of a pass and remembers how long it took.
     fn passed(&mut self, frame: &Frame, milliseconds: f64) {
-        let rays =
-            u64::from(frame.camera.width) * u64::from(frame.camera.height) * u64::from(frame.sample_count);
+        let rays = u64::from(frame.camera.width) * u64::from(frame.camera.height) * u64::from(frame.sample_count);
         self.pace.measured(rays, milliseconds);
         self.mailbox.send(Notice::Refined {
             samples: frame.first_sample + frame.sample_count,
@@ -260,9 +259,8 @@ impl Worker {
 
     /// A picture in the GPU's memory that nobody looks at.
     fn spare_picture(&mut self, gpu: &Arc<Gpu>, size: [u32; 2]) -> Result<Arc<GpuPicture>, BackendError> {
-        let free = |picture: &&Arc<GpuPicture>| {
-            Arc::strong_count(picture) == 1 && [picture.width, picture.height] == size
-        };
+        let free =
+            |picture: &&Arc<GpuPicture>| Arc::strong_count(picture) == 1 && [picture.width, picture.height] == size;
         if let Some(picture) = self.spare.iter().find(free) {
             return Ok(picture.clone());
         }

@@ -115,11 +115,6 @@ impl Schedule {
         self.running = None;
     }
 
-    /// Whether the renderer is free.
-    pub fn is_idle(&self) -> bool {
-        self.running.is_none()
-    }
-
     /// Whether the wanted picture is shown, finished.
     pub fn is_settled(&self) -> bool {
         self.running.is_none() && self.shown == Some((self.wanted, Quality::Final))

@@ -218,7 +218,11 @@ mod tests {
             scale: 2.0,
         });
         hand.moves(70.0, 50.0);
-        assert_eq!(click(&mut hand), Some(Input::Frame), "near enough where pixels are small");
+        assert_eq!(
+            click(&mut hand),
+            Some(Input::Frame),
+            "near enough where pixels are small"
+        );
     }
 
     #[test]

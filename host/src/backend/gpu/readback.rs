@@ -23,6 +23,38 @@ impl Gpu {
             .map_err(|error| self.failed(&error.to_string()))?;
         Ok(bytemuck::pod_collect_to_vec(&bytes))
     }
+
+    /// Red, green and blue of the pixels of a texture with a byte each of red, green, blue and opacity, row by row, once
+    /// everything queued before is done.
+    ///
+    /// # Errors
+    /// [`BackendError::Failed`] where the device is lost.
+    pub fn read_rgb8(&self, texture: &wgpu::Texture) -> Result<Vec<u8>, BackendError> {
+        let row = texture.width() * 4;
+        // Rows of a copy begin at multiples of 256 bytes.
+        let stride = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = self.output("texture", u64::from(stride) * u64::from(texture.height()))?;
+        let mut encoder = self.encoder();
+        encoder.copy_texture_to_buffer(
+            texture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(stride),
+                    rows_per_image: None,
+                },
+            },
+            texture.size(),
+        );
+        self.queue.submit([encoder.finish()]);
+        let bytes: Vec<u8> = self.read(&buffer)?;
+        let rows = bytes.chunks_exact(stride as usize);
+        Ok(rows
+            .flat_map(|bytes| bytes[..row as usize].chunks_exact(4))
+            .flat_map(|texel| [texel[0], texel[1], texel[2]])
+            .collect())
+    }
 }
 
 /// Two timestamps around a compute pass.

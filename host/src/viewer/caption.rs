@@ -1,0 +1,217 @@
+//! What the overlay says.
+
+use super::overlay::{Line, Tone, wrap};
+
+/// What every key and every drag does.
+const HELP: [(&str, &str); 14] = [
+    ("left drag", "turn the camera"),
+    ("right drag", "turn the light"),
+    ("middle drag, Shift+drag", "pan"),
+    ("wheel", "come closer, go away"),
+    ("double click, F", "fit the mesh into the window"),
+    ("R", "back to the first view"),
+    ("P", "flat or Phong shading"),
+    ("M", "1, 4 or 16 samples a pixel"),
+    ("B", "CPU or GPU"),
+    ("I", "figures on or off"),
+    ("H, ?", "this list"),
+    ("Ctrl+S", "save the picture"),
+    ("drop a PLY file", "look at it"),
+    ("Esc", "quit"),
+];
+
+/// What the figures are about.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Caption {
+    /// New pictures a second, if anything moves.
+    pub frames_a_second: Option<f64>,
+    /// Milliseconds of the last pass.
+    pub kernel: Option<f64>,
+    /// Millions of camera rays a second.
+    pub megarays_a_second: Option<f64>,
+    /// Triangles of the mesh.
+    pub triangles: Option<usize>,
+    /// Size of the window's picture.
+    pub size: [u32; 2],
+    /// Samples a pixel that are wanted, and taken.
+    pub samples: [u32; 2],
+    /// Whether normals are interpolated.
+    pub phong: bool,
+    /// What renders.
+    pub backend: String,
+    /// What is being loaded, and how far it is.
+    pub loading: Option<String>,
+}
+
+/// The panel of figures.
+pub fn figures(caption: &Caption) -> Vec<Line> {
+    let speed = [
+        match caption.frames_a_second {
+            Some(rate) => format!("{} frames/s", digits(rate)),
+            None => "idle".into(),
+        },
+        caption.kernel.map_or_else(String::new, |milliseconds| {
+            format!("kernel {} ms", digits(milliseconds))
+        }),
+        caption
+            .megarays_a_second
+            .map_or_else(String::new, |rate| format!("{} Mrays/s", digits(rate))),
+    ];
+    let [wanted, taken] = caption.samples;
+    let samples = match (wanted, taken) {
+        (1, _) => "1 sample".into(),
+        (wanted, taken) if taken < wanted => format!("{taken} of {wanted} samples"),
+        (wanted, _) => format!("{wanted} samples"),
+    };
+    let mesh = [
+        caption
+            .triangles
+            .map_or_else(String::new, |triangles| format!("{} triangles", grouped(triangles))),
+        format!("{} \u{d7} {}", caption.size[0], caption.size[1]),
+        samples,
+        if caption.phong { "Phong" } else { "flat" }.into(),
+    ];
+    let mut lines = vec![
+        plain(caption.backend.clone()),
+        strong(joined(&speed)),
+        plain(joined(&mesh)),
+    ];
+    lines.extend(caption.loading.clone().map(strong));
+    lines
+}
+
+/// The panel of keys.
+pub fn help() -> Vec<Line> {
+    let width = HELP.iter().map(|(key, _)| key.len()).max().unwrap_or(0);
+    HELP.iter()
+        .map(|(key, meaning)| plain(format!("{key:<width$}   {meaning}")))
+        .collect()
+}
+
+/// The panel of a message.
+pub fn message(text: &str, is_warning: bool, columns: usize) -> Vec<Line> {
+    let tone = if is_warning { Tone::Warning } else { Tone::Strong };
+    wrap(text, columns)
+        .into_iter()
+        .map(|text| Line { text, tone })
+        .collect()
+}
+
+fn plain(text: String) -> Line {
+    Line {
+        text,
+        tone: Tone::Plain,
+    }
+}
+
+fn strong(text: String) -> Line {
+    Line {
+        text,
+        tone: Tone::Strong,
+    }
+}
+
+fn joined(parts: &[String]) -> String {
+    let parts: Vec<&str> = parts
+        .iter()
+        .map(String::as_str)
+        .filter(|part| !part.is_empty())
+        .collect();
+    parts.join("   ")
+}
+
+/// A number with three digits, or all before the point if there are more.
+pub fn digits(number: f64) -> String {
+    let decimals = if number >= 99.95 {
+        0
+    } else if number >= 9.995 {
+        1
+    } else {
+        2
+    };
+    format!("{number:.decimals$}")
+}
+
+/// A number with its thousands apart.
+pub fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers() {
+        for (number, text) in [
+            (0.123, "0.12"),
+            (1.5, "1.50"),
+            (9.999, "10.0"),
+            (99.96, "100"),
+            (1234.5, "1234"),
+        ] {
+            assert_eq!(digits(number), text);
+        }
+        for (number, text) in [
+            (0, "0"),
+            (999, "999"),
+            (1000, "1,000"),
+            (69_451, "69,451"),
+            (7_218_906, "7,218,906"),
+        ] {
+            assert_eq!(grouped(number), text);
+        }
+    }
+
+    #[test]
+    fn the_figures() {
+        let caption = Caption {
+            frames_a_second: Some(59.94),
+            kernel: Some(1.5),
+            megarays_a_second: Some(826.0),
+            triangles: Some(69_451),
+            size: [1280, 968],
+            samples: [4, 4],
+            phong: true,
+            backend: "CPU, 2 threads".into(),
+            loading: None,
+        };
+        let text = |caption: &Caption| figures(caption).into_iter().map(|line| line.text).collect::<Vec<_>>();
+        assert_eq!(
+            text(&caption),
+            [
+                "CPU, 2 threads",
+                "59.9 frames/s   kernel 1.50 ms   826 Mrays/s",
+                "69,451 triangles   1280 \u{d7} 968   4 samples   Phong",
+            ]
+        );
+        let waiting = Caption {
+            loading: Some("reading a.ply 40 %".into()),
+            samples: [16, 7],
+            ..Caption::default()
+        };
+        assert_eq!(
+            text(&waiting)[1..],
+            ["idle", "0 \u{d7} 0   7 of 16 samples   flat", "reading a.ply 40 %"]
+        );
+    }
+
+    #[test]
+    fn every_key_is_listed() {
+        let help: Vec<String> = help().into_iter().map(|line| line.text).collect();
+        for key in ["F", "R", "P", "M", "B", "I", "H", "?", "Ctrl+S", "Esc"] {
+            assert!(
+                help.iter().any(|line| line.split([' ', ',']).any(|word| word == key)),
+                "{key} in {help:#?}"
+            );
+        }
+    }
+}

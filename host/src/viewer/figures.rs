@@ -1,0 +1,101 @@
+//! What is measured while the window runs.
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+/// Frames are counted over this time.
+const WINDOW: Duration = Duration::from_secs(1);
+
+/// Times of frames and of the kernel.
+#[derive(Clone, Debug, Default)]
+pub struct Figures {
+    /// New pictures shown since the window opened.
+    pub frames: u64,
+    /// Time from the start of the program's run to the first picture of the mesh.
+    pub first_picture: Option<Duration>,
+    /// Milliseconds of the last pass: by the GPU's clock, or the wall's for the CPU.
+    pub kernel: Option<f64>,
+    /// Samples of each pixel that have been taken.
+    pub samples: u32,
+    rays: u64,
+    recent: VecDeque<Instant>,
+}
+
+impl Figures {
+    /// A new picture is shown.
+    pub fn frame(&mut self, now: Instant) {
+        self.frames += 1;
+        self.forget(now);
+        self.recent.push_back(now);
+    }
+
+    /// A pass is done: so many camera rays in so many milliseconds.
+    pub fn pass(&mut self, samples: u32, rays: u64, milliseconds: f64) {
+        self.samples = samples;
+        self.rays = rays;
+        self.kernel = Some(milliseconds);
+    }
+
+    /// New pictures a second, none while nothing moves.
+    pub fn frames_a_second(&self, now: Instant) -> Option<f64> {
+        let recent = |time: &&Instant| now.saturating_duration_since(**time) < WINDOW;
+        let mut times = self.recent.iter().filter(recent);
+        let first = times.next()?;
+        let intervals = times.count();
+        let span = self.recent.back()?.saturating_duration_since(*first);
+        (intervals > 0 && !span.is_zero()).then(|| intervals as f64 / span.as_secs_f64())
+    }
+
+    /// Millions of camera rays a second in the last pass.
+    pub fn megarays_a_second(&self) -> Option<f64> {
+        let milliseconds = self.kernel.filter(|milliseconds| *milliseconds > 0.0)?;
+        Some(self.rays as f64 / milliseconds / 1e3)
+    }
+
+    /// When the frames a second change if no other frame comes.
+    pub fn expiry(&self) -> Option<Instant> {
+        self.recent.back().map(|last| *last + WINDOW)
+    }
+
+    /// Forgets frames that no longer count.
+    pub fn forget(&mut self, now: Instant) {
+        while self
+            .recent
+            .front()
+            .is_some_and(|time| now.saturating_duration_since(*time) >= WINDOW)
+        {
+            self.recent.pop_front();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_counted_over_the_last_second() {
+        let start = Instant::now();
+        let at = |milliseconds| start + Duration::from_millis(milliseconds);
+        let mut figures = Figures::default();
+        assert_eq!(figures.frames_a_second(start), None);
+        for i in 0..200 {
+            figures.frame(at(i * 20));
+        }
+        let rate = figures.frames_a_second(at(3980)).unwrap();
+        assert!((rate - 50.0).abs() < 1e-6, "{rate}");
+        assert_eq!(figures.frames_a_second(at(4990)), None, "nothing moves any more");
+        assert_eq!(figures.expiry(), Some(at(4980)));
+        figures.forget(at(4980));
+        assert_eq!(figures.expiry(), None);
+        assert_eq!(figures.frames, 200);
+    }
+
+    #[test]
+    fn rays_a_second() {
+        let mut figures = Figures::default();
+        assert_eq!(figures.megarays_a_second(), None);
+        figures.pass(1, 1_000_000, 4.0);
+        assert_eq!(figures.megarays_a_second(), Some(250.0));
+    }
+}

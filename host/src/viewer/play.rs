@@ -1,0 +1,236 @@
+//! Playing a script in the window.
+
+use super::ViewerError;
+use super::application::Application;
+use super::event::Event;
+use super::input::Input;
+use super::notice::Image;
+use super::player::{self, PATIENCE};
+use super::script::{Expectation, Step};
+use crate::output::PictureFile;
+use std::io::Write;
+use std::path::Path;
+use std::time::{Duration, Instant};
+use winit::dpi::PhysicalSize;
+
+/// How a step goes on.
+enum Progress {
+    /// It is done.
+    Done,
+    /// It waits for something.
+    Waits,
+}
+
+impl Application {
+    /// Plays what is due; says when there is more.
+    pub(super) fn play(&mut self, now: Instant) -> Option<Instant> {
+        let mut player = self.player.take()?;
+        // The window must be there for what is played in it.
+        while self.window.is_some() && !self.quits {
+            if !player.is_idle() {
+                match player.event(now) {
+                    Some(event) => self.take_event(&event, now),
+                    None => break,
+                }
+                continue;
+            }
+            let Some((line, step)) = player.step() else {
+                self.quits = true;
+                break;
+            };
+            let begins = player.begins(now, self.figures.frames);
+            let waited = player.elapsed(now);
+            let frames = self.figures.frames - player.frames();
+            let progress = match self.step(&step, begins, waited, frames, &mut player, now) {
+                Ok(Progress::Waits) if waited > PATIENCE + minimum(&step) => Err(format!(
+                    "the step is not done after {} s; wait for something else",
+                    waited.as_secs()
+                )),
+                progress => progress,
+            };
+            match progress {
+                Ok(Progress::Done) => player.advance(),
+                Ok(Progress::Waits) => break,
+                Err(reason) => self.fail(ViewerError::Step {
+                    file: player.file().into(),
+                    line,
+                    reason: reason.trim_end_matches('.').into(),
+                }),
+            }
+        }
+        let wakes = player.wakes(now);
+        self.player = Some(player);
+        Some(wakes)
+    }
+
+    fn step(
+        &mut self,
+        step: &Step,
+        begins: bool,
+        waited: Duration,
+        frames: u64,
+        player: &mut player::Player,
+        now: Instant,
+    ) -> Result<Progress, String> {
+        let wait_for = |done| Ok(if done { Progress::Done } else { Progress::Waits });
+        match step {
+            Step::Drag {
+                button,
+                shift,
+                right,
+                down,
+            } => player.queue(player::drag(self.session.size, *button, *shift, [*right, *down])),
+            Step::DoubleClick => player.queue(player::double_click()),
+            Step::Wheel(notches) => player.queue([Event::Wheel(*notches)]),
+            Step::Key { key, control } => player.queue(player::key(*key, *control)),
+            Step::Open(path) => player.queue([Event::Dropped(path.clone())]),
+            Step::Resize(size) => {
+                if let (true, Some(window)) = (begins, &self.window)
+                    && let Some(size) = window.request_inner_size(PhysicalSize::new(size[0], size[1]))
+                {
+                    // Granted at once, without an event.
+                    player.queue([self.resized([size.width, size.height])]);
+                }
+                return wait_for(self.session.size == *size);
+            }
+            Step::Minimise => {
+                if let Some(window) = &self.window {
+                    window.set_minimized(true);
+                }
+                // As Windows tells it; elsewhere nobody does.
+                player.queue([self.resized([0, 0])]);
+            }
+            Step::Restore => {
+                if let Some(window) = &self.window {
+                    window.set_minimized(false);
+                    let size = window.inner_size();
+                    player.queue([self.resized([size.width, size.height])]);
+                }
+            }
+            Step::Save(path) => {
+                if begins {
+                    self.last_save = None;
+                    self.take_input(Input::Save(Some(path.clone())), now);
+                }
+                return match &self.last_save {
+                    Some(Ok(_)) => Ok(Progress::Done),
+                    Some(Err(error)) => Err(error.clone()),
+                    None => Ok(Progress::Waits),
+                };
+            }
+            Step::Screenshot(path) => self.screenshot(path, now)?,
+            Step::Print => {
+                let text = self.report(now);
+                // Whoever closed standard output wants no more.
+                drop(std::io::stdout().write_all(text.as_bytes()));
+            }
+            Step::WaitSettled => return wait_for(self.is_settled()),
+            Step::WaitFrames(count) => return wait_for(frames >= *count),
+            Step::WaitMilliseconds(time) => return wait_for(waited >= Duration::from_millis(*time)),
+            Step::Expect(expectation) => self.expect(expectation)?,
+            Step::Quit => self.quits = true,
+        }
+        Ok(Progress::Done)
+    }
+
+    fn resized(&self, size: [u32; 2]) -> Event {
+        Event::Resized {
+            size,
+            scale: self.session.scale,
+        }
+    }
+
+    fn screenshot(&mut self, path: &Path, now: Instant) -> Result<(), String> {
+        self.draw(now);
+        let (Some(screen), Some(image), true) = (&mut self.screen, &self.image, self.session.is_visible()) else {
+            return Err("the window shows no picture yet; wait for it with: wait settled".into());
+        };
+        let size = self.session.size;
+        let pixels = screen
+            .screenshot(image, &self.overlay, size)
+            .map_err(|error| error.to_string())?;
+        PictureFile::create(path)
+            .and_then(|file| file.save_rgb8(&pixels, size))
+            .map_err(|error| error.to_string())
+    }
+
+    fn expect(&self, expectation: &Expectation) -> Result<(), String> {
+        let is_so = match expectation {
+            Expectation::FirstPicture(limit) => {
+                let first = self.figures.first_picture;
+                first.is_some_and(|first| first <= Duration::from_millis(*limit))
+            }
+            Expectation::Gpu(wanted) => matches!(self.image, Some(Image::Gpu(_))) == *wanted,
+            Expectation::Triangles(wanted) => self
+                .scene
+                .as_ref()
+                .is_some_and(|scene| scene.triangles.len() == *wanted),
+            Expectation::Message(part) => self
+                .message
+                .as_ref()
+                .is_some_and(|message| message.text.contains(part.as_str())),
+        };
+        if is_so {
+            return Ok(());
+        }
+        Err(match expectation {
+            Expectation::FirstPicture(_) => match self.figures.first_picture {
+                Some(first) => format!("the first picture came after {} ms", first.as_millis()),
+                None => "there is no picture yet".into(),
+            },
+            Expectation::Gpu(_) => format!("the picture comes from: {}", self.backend_name()),
+            Expectation::Triangles(_) => match &self.scene {
+                Some(scene) => format!("the mesh has {} triangles", scene.triangles.len()),
+                None => "there is no mesh yet".into(),
+            },
+            Expectation::Message(_) => match &self.message {
+                Some(message) => format!("the message is: {}", message.text),
+                None => "there is no message".into(),
+            },
+        })
+    }
+
+    /// The figures and the view, a line each: a name and its values.
+    fn report(&self, now: Instant) -> String {
+        let caption = self.caption(now);
+        let view = &self.session.view;
+        let mut text = String::new();
+        let mut line = |name: &str, value: String| text.extend([name, " ", &value, "\n"]);
+        let number = |value: Option<f64>| value.map_or_else(|| "-".into(), |value| format!("{value:.3}"));
+        let first = self.figures.first_picture.map(|first| first.as_secs_f64() * 1e3);
+        line("backend", caption.backend);
+        line(
+            "triangles",
+            caption
+                .triangles
+                .map_or_else(|| "-".into(), |triangles| triangles.to_string()),
+        );
+        line("size", format!("{} {}", caption.size[0], caption.size[1]));
+        line("samples", format!("{} of {}", caption.samples[1], caption.samples[0]));
+        line("shading", if caption.phong { "phong" } else { "flat" }.into());
+        for (name, place) in [("camera", view.camera), ("light", view.light)] {
+            line(
+                name,
+                format!("{} {} {}", place.azimuth, place.elevation, place.distance),
+            );
+        }
+        line(
+            "target",
+            format!("{} {} {}", view.target.x, view.target.y, view.target.z),
+        );
+        line("first-picture", number(first));
+        line("frames", self.figures.frames.to_string());
+        line("frames-a-second", number(caption.frames_a_second));
+        line("kernel-milliseconds", number(caption.kernel));
+        line("megarays-a-second", number(caption.megarays_a_second));
+        text
+    }
+}
+
+/// How long a step takes at least.
+fn minimum(step: &Step) -> Duration {
+    match step {
+        Step::WaitMilliseconds(time) => Duration::from_millis(*time),
+        _ => Duration::ZERO,
+    }
+}

@@ -1,0 +1,127 @@
+//! Drawing a picture from the GPU's memory onto a surface, without a trip over the CPU.
+
+use super::compose::present;
+use super::overlay::Overlay;
+use crate::backend::gpu::Gpu;
+use wgpu::util::DeviceExt;
+
+/// The pipeline of the entry points `present_vertex` and `present_fragment`, for surfaces of one format.
+pub struct Presenter {
+    pipeline: wgpu::RenderPipeline,
+    layout: wgpu::BindGroupLayout,
+}
+
+impl Presenter {
+    /// Makes the pipeline.
+    pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
+        const STORAGE: wgpu::BufferBindingType = wgpu::BufferBindingType::Storage { read_only: true };
+        let kinds = [STORAGE, STORAGE, wgpu::BufferBindingType::Uniform];
+        let entries: Vec<_> = kinds
+            .into_iter()
+            .zip(0..)
+            .map(|(ty, binding)| wgpu::BindGroupLayoutEntry {
+                binding,
+                visibility: wgpu::ShaderStages::FRAGMENT,
+                ty: wgpu::BindingType::Buffer {
+                    ty,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            })
+            .collect();
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("present"),
+            entries: &entries,
+        });
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("present"),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("present"),
+            layout: Some(&pipeline_layout),
+            vertex: wgpu::VertexState {
+                module: gpu.module(),
+                entry_point: Some("present_vertex"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: gpu.module(),
+                entry_point: Some("present_fragment"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &[Some(format.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        });
+        Presenter { pipeline, layout }
+    }
+
+    /// Draws a picture, given by its sums and size, and the overlay onto all of a texture, and submits that.
+    pub fn draw(
+        &self,
+        gpu: &Gpu,
+        target: &wgpu::TextureView,
+        target_size: [u32; 2],
+        (sums, picture_size): (&wgpu::Buffer, [u32; 2]),
+        overlay: &Overlay,
+    ) {
+        let buffer = |label, contents: &[u8], usage| {
+            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(label),
+                contents,
+                usage,
+            })
+        };
+        // A buffer must not be empty, even where nobody reads it.
+        let texels: &[u32] = if overlay.texels.is_empty() {
+            &[0]
+        } else {
+            &overlay.texels
+        };
+        let texels = buffer("overlay", bytemuck::cast_slice(texels), wgpu::BufferUsages::STORAGE);
+        let uniform = present(picture_size, overlay, target_size);
+        let uniform = buffer("present", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);
+        let entries: Vec<_> = [sums, &texels, &uniform]
+            .into_iter()
+            .zip(0..)
+            .map(|(buffer, binding)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("present"),
+            layout: &self.layout,
+            entries: &entries,
+        });
+        let mut encoder = gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("present"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: target,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                ..Default::default()
+            });
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.draw(0..3, 0..1);
+        }
+        gpu.queue.submit([encoder.finish()]);
+    }
+}

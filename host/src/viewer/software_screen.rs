@@ -1,0 +1,47 @@
+//! A window without a GPU: the CPU writes its pixels.
+
+use super::compose::compose;
+use super::overlay::Overlay;
+use super::screen::ScreenError;
+use crate::picture::Picture;
+use softbuffer::{Context, SoftBufferError, Surface};
+use std::num::NonZeroU32;
+use std::sync::Arc;
+use winit::window::Window;
+
+/// The window's pixels in the computer's memory.
+pub struct SoftwareScreen {
+    window: Arc<Window>,
+    surface: Surface<Arc<Window>, Arc<Window>>,
+}
+
+impl SoftwareScreen {
+    /// The pixels of a window.
+    ///
+    /// # Errors
+    /// [`ScreenError::Software`] where the window system refuses.
+    pub fn new(window: Arc<Window>) -> Result<Self, ScreenError> {
+        let context = Context::new(window.clone()).map_err(failed)?;
+        let surface = Surface::new(&context, window.clone()).map_err(failed)?;
+        Ok(SoftwareScreen { window, surface })
+    }
+
+    /// Shows a picture with the overlay over it in a window of that size.
+    ///
+    /// # Errors
+    /// [`ScreenError::Software`] where the window system refuses.
+    pub fn draw(&mut self, picture: &Picture, overlay: &Overlay, size: [u32; 2]) -> Result<(), ScreenError> {
+        let (Some(width), Some(height)) = (NonZeroU32::new(size[0]), NonZeroU32::new(size[1])) else {
+            return Ok(());
+        };
+        self.surface.resize(width, height).map_err(failed)?;
+        let mut buffer = self.surface.buffer_mut().map_err(failed)?;
+        compose(picture, overlay, size, &mut buffer);
+        self.window.pre_present_notify();
+        buffer.present().map_err(failed)
+    }
+}
+
+fn failed(error: SoftBufferError) -> ScreenError {
+    ScreenError::Software(error.to_string())
+}
