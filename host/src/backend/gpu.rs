@@ -219,7 +219,7 @@ impl Gpu {
     }
 
     /// As [`Gpu::render_pass`], and waits for it: returns the milliseconds that the kernel took by the device's own
-    /// clock, or by the host's where the device has none.
+    /// clock, or by the host's where the device has none or is software, whose clock does not wait for its threads.
     ///
     /// # Errors
     /// [`BackendError::Failed`] where the device is lost.
@@ -230,7 +230,8 @@ impl Gpu {
         frame: &Frame,
     ) -> Result<f64, BackendError> {
         let mut encoder = self.encoder();
-        if let Some(timer) = Timer::new(self) {
+        let timer = if self.is_software() { None } else { Timer::new(self) };
+        if let Some(timer) = timer {
             self.encode_render(&mut encoder, scene, picture, frame, Some(&timer));
             timer.finish(self, encoder)
         } else {

@@ -65,6 +65,7 @@ pub struct Application {
     pub(super) is_shown: bool,
     pub(super) panels: Vec<Vec<Line>>,
     pub(super) overlay: Overlay,
+    pub(super) title: String,
     pub(super) message: Option<Message>,
     /// When a drawing that failed for the moment is tried again.
     pub(super) retry: Option<Instant>,
@@ -147,6 +148,7 @@ impl Application {
             is_shown: false,
             panels: Vec::new(),
             overlay: Overlay::default(),
+            title: String::new(),
             message: None,
             retry: None,
             player,

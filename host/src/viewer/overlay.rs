@@ -18,7 +18,7 @@ const LINE: u32 = 17;
 /// Width of a character, pixels at scale 1.
 const COLUMN: u32 = FONT_8X13.character_size.width;
 /// Colour of the panels, sRGB-encoded, with their opacity.
-const PANEL: u32 = texel([14, 18, 24], 190);
+const PANEL: u32 = texel([14, 18, 24], 222);
 
 /// How a line is to look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

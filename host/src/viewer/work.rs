@@ -215,7 +215,11 @@ impl Application {
             return;
         };
         self.update_overlay(now);
-        window.set_title(&self.title());
+        let title = self.title();
+        if title != self.title {
+            window.set_title(&title);
+            self.title = title;
+        }
         let image = self.image.clone().unwrap_or_else(|| {
             Image::Cpu(Arc::new(Picture {
                 width: 1,
@@ -267,7 +271,10 @@ impl Application {
         if self.session.help {
             panels.push(caption::help());
         }
-        if let Some(message) = &self.message {
+        // Whoever wants no figures wants to see the picture, unless something went wrong.
+        if let Some(message) = &self.message
+            && (message.is_warning || self.session.figures)
+        {
             let columns = Overlay::columns(self.session.size[0], scale).min(100);
             panels.push(caption::message(&message.text, message.is_warning, columns));
         }

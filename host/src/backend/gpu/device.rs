@@ -144,6 +144,11 @@ impl Gpu {
         &self.module
     }
 
+    /// Whether the device is a program that runs on the CPU.
+    pub fn is_software(&self) -> bool {
+        self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
+    }
+
     /// The largest number of bytes that a kernel can see through one binding.
     pub fn binding_limit(&self) -> u64 {
         let limits = self.device.limits();
