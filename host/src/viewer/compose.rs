@@ -3,8 +3,9 @@
 use super::overlay::Overlay;
 use crate::picture::Picture;
 use glam::{Vec3, vec2};
-use oktant_shared::present::{Present, presented_color};
+use oktant_shared::present::{Present, mean_color, presented_color};
 use oktant_shared::shading::linear_from_srgb;
+use std::num::NonZero;
 use std::sync::LazyLock;
 
 /// How a picture and an overlay go onto a surface.
@@ -21,19 +22,77 @@ pub fn present(picture: [u32; 2], overlay: &Overlay, surface: [u32; 2]) -> Prese
     }
 }
 
-/// Writes the pixels of a surface, sRGB-encoded, as `0x00RRGGBB`.
+/// Threads that compose at most.
+const THREADS: usize = 4;
+
+/// Writes the pixels of a surface, sRGB-encoded, as `0x00RRGGBB`: what [`presented_color`] says, with a short cut where
+/// one pixel of the picture covers several of the surface.
 ///
-/// On the caller's thread alone: all others may be rendering, and would be waited for.
+/// On threads of its own: all of rayon's may be rendering, and would be waited for.
 pub fn compose(picture: &Picture, overlay: &Overlay, surface: [u32; 2], pixels: &mut [u32]) {
-    let encoder = &*ENCODER;
     let present = present([picture.width, picture.height], overlay, surface);
-    for (row, y) in pixels.chunks_exact_mut(surface[0] as usize).zip(0..) {
-        for (pixel, x) in row.iter_mut().zip(0..) {
+    let columns: Vec<u32> = (0..surface[0]).map(|x| scaled(x, surface[0], picture.width)).collect();
+    let width = surface[0] as usize;
+    let threads = std::thread::available_parallelism()
+        .map_or(1, NonZero::get)
+        .min(THREADS);
+    let rows = (surface[1] as usize).div_ceil(threads);
+    let columns = &columns;
+    std::thread::scope(|scope| {
+        for (band, top) in pixels.chunks_mut(width * rows).zip((0..).step_by(rows)) {
+            scope.spawn(move || {
+                let mut last = None;
+                for y in 0..band.len() / width {
+                    let (above, row) = band.split_at_mut(y * width);
+                    let row = &mut row[..width];
+                    let y = (top + y) as u32;
+                    let source = scaled(y, surface[1], picture.height);
+                    if last == Some(source) && y > overlay.height {
+                        row.copy_from_slice(&above[above.len() - width..]);
+                        continue;
+                    }
+                    last = Some(source);
+                    compose_row(picture, source, columns, row);
+                    if y < overlay.height {
+                        lay_over(&present, picture, overlay, y, row);
+                    }
+                }
+            });
+        }
+    });
+}
+
+/// Writes a row of the surface that shows a row of the picture.
+fn compose_row(picture: &Picture, source: u32, columns: &[u32], row: &mut [u32]) {
+    let encoder = &*ENCODER;
+    let start = (source * picture.width) as usize;
+    let sums = &picture.sums[start..start + picture.width as usize];
+    let mut last = (u32::MAX, 0);
+    for (pixel, &column) in row.iter_mut().zip(columns) {
+        if last.0 != column {
+            last = (column, encoder.encode(mean_color(sums[column as usize])));
+        }
+        *pixel = last.1;
+    }
+}
+
+/// Lays the overlay over a row of the surface.
+fn lay_over(present: &Present, picture: &Picture, overlay: &Overlay, y: u32, row: &mut [u32]) {
+    let start = (y * overlay.width) as usize;
+    let texels = &overlay.texels[start..start + overlay.width as usize];
+    for ((pixel, texel), x) in row.iter_mut().zip(texels).zip(0_u32..) {
+        if texel >> 24 != 0 {
             let at = vec2(x as f32 + 0.5, y as f32 + 0.5);
-            let color = presented_color(&present, &picture.sums, &overlay.texels, at);
-            *pixel = encoder.encode(color.truncate());
+            let color = presented_color(present, &picture.sums, &overlay.texels, at);
+            *pixel = ENCODER.encode(color.truncate());
         }
     }
+}
+
+/// The place in a row of `to` pixels that a pixel of a row of `from` shows, as in `shared::present`.
+fn scaled(pixel: u32, from: u32, to: u32) -> u32 {
+    let place = ((pixel as f32 + 0.5) * to as f32 / from as f32) as u32;
+    place.min(to - 1)
 }
 
 static ENCODER: LazyLock<Encoder> = LazyLock::new(Encoder::new);
@@ -77,8 +136,8 @@ impl Encoder {
     }
 
     fn byte(&self, linear: f32) -> u32 {
-        // Not a number becomes 0, as everything below.
-        let linear = linear.max(0.0).min(1.0);
+        // What is not a number becomes 0: it is cast to 0, and is not greater than anything.
+        let linear = linear.clamp(0.0, 1.0);
         let mut byte = u32::from(self.guesses[(linear * (GUESSES - 1) as f32) as usize]);
         while linear >= self.thresholds[byte as usize + 1] {
             byte += 1;
@@ -106,6 +165,42 @@ mod tests {
         assert!(differences < 255, "{differences} ties fell to the other side");
         for (linear, byte) in [(-1.0, 0), (2.0, 255), (f32::NAN, 0), (f32::INFINITY, 255)] {
             assert_eq!(ENCODER.byte(linear), byte, "{linear}");
+        }
+    }
+
+    #[test]
+    fn the_short_cut_shows_what_the_gpu_does() {
+        let mut random = 1_u32;
+        let mut next = || {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            random >> 8
+        };
+        for (size, surface) in [
+            ([1, 1], [5, 3]),
+            ([7, 5], [7, 5]),
+            ([5, 7], [13, 20]),
+            ([40, 31], [160, 121]),
+            ([30, 30], [17, 11]),
+        ] {
+            let sum = |value: u32| Vec4::new((value & 255) as f32, (value >> 8 & 255) as f32, 90.0, 255.0);
+            let picture = Picture {
+                width: size[0],
+                height: size[1],
+                sums: (0..size[0] * size[1]).map(|_| sum(next())).collect(),
+            };
+            let overlay = Overlay {
+                width: 6,
+                height: 4,
+                texels: (0..24).map(|_| next() << 8 | 7).collect(),
+            };
+            let mut pixels = vec![0; (surface[0] * surface[1]) as usize];
+            compose(&picture, &overlay, surface, &mut pixels);
+            let present = present(size, &overlay, surface);
+            for (pixel, i) in pixels.iter().zip(0..) {
+                let at = vec2((i % surface[0]) as f32 + 0.5, (i / surface[0]) as f32 + 0.5);
+                let color = presented_color(&present, &picture.sums, &overlay.texels, at);
+                assert_eq!(*pixel, ENCODER.encode(color.truncate()), "{at} of {surface:?}");
+            }
         }
     }
 

@@ -84,7 +84,6 @@ mod tests {
             last = edge;
         }
         assert_eq!(last, COARSEST);
-        assert_eq!(pace.coarseness([40, 30]), COARSEST);
         assert_eq!(draft_size([1280, 969], 2), [640, 485]);
     }
 
