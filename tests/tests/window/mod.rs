@@ -1,0 +1,275 @@
+//! Starting the program, looking at its window and reaching into it.
+
+mod display;
+
+pub use display::{Display, screen_of};
+
+use oktant::backend::Backend;
+use oktant::backend::cpu::Cpu;
+use oktant::mesh_source::MeshSource;
+use oktant::octree::OctreeOptions;
+use oktant::progress::silent;
+use oktant::scene::Scene;
+use oktant::view::{Place, Samples, Shading, View};
+use std::fmt;
+use std::io::Read;
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+use std::sync::{Arc, LazyLock};
+use std::thread;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// A picture with red, green and blue a pixel.
+pub type Image = image::RgbImage;
+
+/// Whatever takes longer has gone wrong.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// The program, built for these tests: tests of another package do not build it.
+static PROGRAM: LazyLock<PathBuf> = LazyLock::new(|| {
+    let built = Command::new(env!("CARGO"))
+        .args(["build", "--release", "--package", "oktant"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .status()
+        .expect("cargo starts");
+    assert!(built.success(), "the program cannot be built; see above");
+    let test = std::env::current_exe().expect("a test knows its file");
+    // target/PROFILE/deps/TEST
+    let target = test.ancestors().nth(3).expect("tests lie in the target folder");
+    let program = target
+        .join("release")
+        .join(format!("oktant{}", std::env::consts::EXE_SUFFIX));
+    assert!(
+        program.is_file(),
+        "{} is missing; build it with: cargo build --release",
+        program.display()
+    );
+    program
+});
+
+/// A folder in which the program runs.
+pub struct Session {
+    folder: TempDir,
+}
+
+impl Session {
+    pub fn new() -> Self {
+        Session {
+            folder: tempfile::tempdir().expect("there is a temporary folder"),
+        }
+    }
+
+    /// Writes a file; returns its name.
+    pub fn write(&self, name: &str, text: &str) -> String {
+        std::fs::write(self.folder.path().join(name), text).expect("the folder can be written");
+        name.into()
+    }
+
+    /// The program with arguments, in the folder.
+    pub fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(&*PROGRAM);
+        command
+            .args(arguments)
+            .current_dir(self.folder.path())
+            .stdin(Stdio::null());
+        command
+    }
+
+    /// Starts the viewer with arguments, and with a script if that is not empty.
+    pub fn start(&self, arguments: &[&str], script: &str) -> Running {
+        let mut all = vec!["view"];
+        all.extend(arguments);
+        if !script.is_empty() {
+            self.write("script.txt", script);
+            all.extend(["--script", "script.txt"]);
+        }
+        self.start_with(&all)
+    }
+
+    /// Starts the program.
+    pub fn start_with(&self, arguments: &[&str]) -> Running {
+        let child = self
+            .command(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        Running { child }
+    }
+
+    /// The picture in a file that is about to appear; files appear complete.
+    pub fn await_picture(&self, name: &str) -> Image {
+        let path = self.folder.path().join(name);
+        let start = Instant::now();
+        while !path.exists() {
+            assert!(start.elapsed() < PATIENCE, "{name} was not written");
+            thread::sleep(Duration::from_millis(20));
+        }
+        image::open(path).expect("the program writes PNG files").to_rgb8()
+    }
+}
+
+/// A program that runs.
+pub struct Running {
+    child: Child,
+}
+
+impl Running {
+    /// Waits for its end, which must be a good one.
+    pub fn finish(&mut self) -> Report {
+        let report = self.wait();
+        assert_eq!(report.code, Some(0), "{report}");
+        report
+    }
+
+    /// Waits for its end.
+    pub fn wait(&mut self) -> Report {
+        let start = Instant::now();
+        let status = loop {
+            if let Some(status) = self.child.try_wait().expect("a child can be waited for") {
+                break status;
+            }
+            assert!(start.elapsed() < PATIENCE, "the window does not close");
+            thread::sleep(Duration::from_millis(5));
+        };
+        // Little enough to fit into a pipe.
+        let read = |pipe: Option<&mut dyn Read>| {
+            let mut text = String::new();
+            if let Some(pipe) = pipe {
+                pipe.read_to_string(&mut text).expect("the program prints text");
+            }
+            text
+        };
+        Report {
+            code: status.code(),
+            standard_output: read(self.child.stdout.as_mut().map(|pipe| pipe as &mut dyn Read)),
+            standard_error: read(self.child.stderr.as_mut().map(|pipe| pipe as &mut dyn Read)),
+        }
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // It has ended, or the test failed.
+        drop(self.child.kill());
+        drop(self.child.wait());
+    }
+}
+
+/// What a program left behind.
+pub struct Report {
+    pub code: Option<i32>,
+    pub standard_output: String,
+    pub standard_error: String,
+}
+
+impl Report {
+    /// What the step `print` said of something, the last time.
+    pub fn value(&self, name: &str) -> String {
+        value_in(&self.standard_output, name)
+    }
+
+    /// The view that the step `print` printed.
+    pub fn view(&self) -> View {
+        let numbers = |name: &str| -> Vec<f32> {
+            let value = self.value(name);
+            value.split(' ').map(|word| word.parse().expect("a number")).collect()
+        };
+        let place = |name: &str| match numbers(name)[..] {
+            [azimuth, elevation, distance] => Place {
+                azimuth,
+                elevation,
+                distance,
+            },
+            _ => panic!("{name} in {self}"),
+        };
+        View {
+            camera: place("camera"),
+            light: place("light"),
+            target: glam::Vec3::from_slice(&numbers("target")),
+            shading: match self.value("shading").as_str() {
+                "flat" => Shading::Flat,
+                _ => Shading::Phong,
+            },
+            samples: match self.value("samples").rsplit(' ').next() {
+                Some("4") => Samples::Four,
+                Some("16") => Samples::Sixteen,
+                _ => Samples::One,
+            },
+            ..View::default()
+        }
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "exit code {:?}\n{}\n{}",
+            self.code, self.standard_output, self.standard_error
+        )
+    }
+}
+
+/// What stands after a name at the beginning of a line, the last time.
+pub fn value_in(text: &str, name: &str) -> String {
+    text.lines()
+        .rev()
+        .find_map(|line| line.strip_prefix(name)?.strip_prefix(' '))
+        .unwrap_or_else(|| panic!("no {name} in {text}"))
+        .into()
+}
+
+/// Plays a script to its good end.
+pub fn run(session: &Session, arguments: &[&str], script: &str) -> Report {
+    session.start(arguments, script).finish()
+}
+
+/// The picture that `oktant render` makes of the bunny.
+pub fn rendered_by_the_command(session: &Session, view: &View, size: [u32; 2]) -> Image {
+    assert_eq!(view.target, glam::Vec3::ZERO, "the command line cannot pan");
+    let mut arguments: Vec<String> = vec!["render".into(), "--backend".into(), "cpu".into()];
+    let mut option = |name: &str, value: String| arguments.push(format!("--{name}={value}"));
+    option("output", "rendered.png".into());
+    option("size", format!("{}x{}", size[0], size[1]));
+    option("samples", view.samples.count().to_string());
+    option(
+        "shading",
+        if view.shading == Shading::Flat { "flat" } else { "phong" }.into(),
+    );
+    for (prefix, place) in [("", view.camera), ("light-", view.light)] {
+        option(&format!("{prefix}azimuth"), place.azimuth.to_string());
+        option(&format!("{prefix}elevation"), place.elevation.to_string());
+        option(&format!("{prefix}distance"), place.distance.to_string());
+    }
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    session.start_with(&arguments).finish();
+    session.await_picture("rendered.png")
+}
+
+/// The picture of the bunny that this very process renders.
+pub fn offline(view: &View, size: [u32; 2]) -> Image {
+    static SCENE: LazyLock<Arc<Scene>> = LazyLock::new(|| {
+        let mesh = MeshSource::Bunny.load(&silent).expect("the bunny is sound");
+        Arc::new(Scene::new(&mesh, &OctreeOptions::default(), &silent).expect("the bunny has triangles"))
+    });
+    let frame = view.frame(&SCENE, size[0], size[1]);
+    let picture = Cpu::new(SCENE.clone())
+        .render(&frame, &silent)
+        .expect("the CPU renders");
+    Image::from_raw(size[0], size[1], picture.to_rgb8()).expect("as many pixels as asked for")
+}
+
+/// Share of the pixels none of whose channels differs by more than 1 of 255; 0 for pictures of different sizes.
+pub fn agreement(one: &Image, other: &Image) -> f64 {
+    if one.dimensions() != other.dimensions() {
+        return 0.0;
+    }
+    let alike = one
+        .pixels()
+        .zip(other.pixels())
+        .filter(|(a, b)| a.0.iter().zip(b.0).all(|(a, b)| a.abs_diff(b) <= 1))
+        .count();
+    alike as f64 / (one.width() * one.height()) as f64
+}
