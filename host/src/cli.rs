@@ -18,7 +18,9 @@ use tracing_subscriber::EnvFilter;
 pub fn run() -> ExitCode {
     let arguments = Arguments::parse();
     tracing_subscriber::fmt()
-        .with_env_filter(EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("warn,winit=error")))
+        .with_env_filter(
+            EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("warn,winit=error,softbuffer=error")),
+        )
         .with_writer(std::io::stderr)
         .without_time()
         .with_target(false)

@@ -119,7 +119,7 @@ fn pointer_and_keyboard_do_what_the_script_does() {
     display.drag(1, [90, 40]);
     display.drag(3, [-50, 30]);
     display.drag(2, [25, 15]);
-    display.click(4);
+    // Two notches: winit 0.30 takes press and release for one each where a device has no scroll axis.
     display.click(4);
     display.key("p");
     display.shows("after the drags", &wanted);
@@ -130,6 +130,7 @@ fn pointer_and_keyboard_do_what_the_script_does() {
 
     display.do_to_window("windowunmap");
     display.do_to_window("windowmap");
+    display.do_to_window("windowfocus");
     display.shows("after it was hidden", &wanted);
     display.resize([420, 360]);
     display.shows("after it was resized", &offline(&scripted, [420, 360]));

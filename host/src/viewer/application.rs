@@ -310,6 +310,8 @@ impl ApplicationHandler<Notice> for Application {
         };
         match Screen::software(window.clone()) {
             Ok(screen) => self.screen = Some(screen),
+            // A display with ten bits a colour, say: a GPU may still draw on it.
+            Err(_) if matches!(self.gpu, GpuState::Opening { .. }) => {}
             Err(error) => {
                 self.fail(error);
                 event_loop.exit();

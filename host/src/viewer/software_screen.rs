@@ -43,5 +43,8 @@ impl SoftwareScreen {
 }
 
 fn failed(error: SoftBufferError) -> ScreenError {
-    ScreenError::Software(error.to_string())
+    ScreenError::Software(match error {
+        SoftBufferError::PlatformError(Some(reason), _) => reason,
+        other => other.to_string(),
+    })
 }

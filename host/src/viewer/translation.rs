@@ -41,7 +41,12 @@ impl Translation {
                 if right == 0.0 && down == 0.0 {
                     return None;
                 }
-                match self.held? {
+                let held = self.held?;
+                // A drag is no click, even if it ends where it began.
+                if self.last_click.is_some_and(|(_, place)| !self.reaches(place, [x, y])) {
+                    self.last_click = None;
+                }
+                match held {
                     Button::Left if self.modifiers.shift => Some(Input::Pan { right, down }),
                     Button::Left => Some(Input::Turn { right, down }),
                     Button::Right => Some(Input::TurnLight { right, down }),
@@ -85,12 +90,8 @@ impl Translation {
 
     fn click(&mut self, now: Instant) -> Option<Input> {
         let at = self.pointer.unwrap_or_default();
-        let reach = DOUBLE_CLICK_REACH * self.scale;
         match self.last_click {
-            Some((time, place))
-                if now.saturating_duration_since(time) <= DOUBLE_CLICK
-                    && (at[0] - place[0]).hypot(at[1] - place[1]) <= reach =>
-            {
+            Some((time, place)) if now.saturating_duration_since(time) <= DOUBLE_CLICK && self.reaches(place, at) => {
                 // A third press begins anew.
                 self.last_click = None;
                 Some(Input::Frame)
@@ -100,6 +101,11 @@ impl Translation {
                 None
             }
         }
+    }
+
+    /// Whether two places are near enough for a double click.
+    fn reaches(&self, a: [f64; 2], b: [f64; 2]) -> bool {
+        (a[0] - b[0]).hypot(a[1] - b[1]) <= DOUBLE_CLICK_REACH * self.scale
     }
 
     fn key(&self, key: Key) -> Option<Input> {
@@ -213,6 +219,12 @@ mod tests {
         assert_eq!(click(&mut hand), None, "too late");
         hand.moves(60.0, 50.0);
         assert_eq!(click(&mut hand), None, "too far away");
+        hand.now += Duration::from_secs(1);
+        hand.press(Button::Left);
+        hand.moves(90.0, 50.0);
+        hand.moves(60.0, 50.0);
+        hand.release(Button::Left);
+        assert_eq!(click(&mut hand), None, "a drag there and back is no click");
         hand.does(Event::Resized {
             size: [10, 10],
             scale: 2.0,

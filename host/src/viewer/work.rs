@@ -63,6 +63,7 @@ impl Application {
                     self.fail(error);
                 } else {
                     self.tell(error.and_the_cpu_renders(), true);
+                    self.ensure_screen();
                 }
             }
             Notice::Rendered(rendered) => self.take_picture(rendered.number, rendered.image, rendered.complete),
@@ -200,13 +201,18 @@ impl Application {
         self.image = None;
         self.screen = None;
         self.schedule.shows_nothing(now);
-        if let Some(window) = &self.window {
+        self.ensure_screen();
+        self.tell(sentence, true);
+    }
+
+    /// Lets the CPU draw the window if nobody does.
+    fn ensure_screen(&mut self) {
+        if let (Some(window), None) = (&self.window, &self.screen) {
             match Screen::software(window.clone()) {
                 Ok(screen) => self.screen = Some(screen),
                 Err(error) => self.fail(error),
             }
         }
-        self.tell(sentence, true);
     }
 
     /// Draws the window.
