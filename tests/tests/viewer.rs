@@ -190,6 +190,36 @@ fn without_a_real_gpu_the_cpu_renders_and_says_so() {
 
 #[test]
 #[ignore = "needs a display"]
+fn without_any_driver_the_cpu_shows_the_picture() {
+    let session = Session::new();
+    let without_driver = |arguments: &[&str], script: &str| {
+        let script = session.write("script.txt", script);
+        let mut command = session.command(&["view", "--size", SIZE, "--script", &script]);
+        command.args(arguments);
+        // The first name is the current one, the second what older loaders read.
+        command.env("VK_DRIVER_FILES", "none").env("VK_ICD_FILENAMES", "none");
+        let output = command.output().expect("the program starts");
+        (
+            output.status.code(),
+            String::from_utf8_lossy(&output.stderr).into_owned(),
+        )
+    };
+    let script = "wait settled
+        expect backend cpu
+        key B
+        wait settled
+        expect message There is no GPU to use
+        expect backend cpu";
+    let (code, standard_error) = without_driver(&[], script);
+    assert_eq!(code, Some(0), "{standard_error}");
+    assert_eq!(standard_error.matches("the CPU renders").count(), 2, "{standard_error}");
+    let (code, standard_error) = without_driver(&["--backend", "gpu"], "wait settled");
+    assert_eq!(code, Some(1), "{standard_error}");
+    assert!(standard_error.contains("use --backend cpu"), "{standard_error}");
+}
+
+#[test]
+#[ignore = "needs a display"]
 fn no_display_is_a_sentence_and_a_picture() {
     for display in [None, Some(""), Some(":4711"), Some("nowhere:0")] {
         let session = Session::new();

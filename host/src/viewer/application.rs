@@ -8,14 +8,16 @@ use super::opener::open_gpu;
 use super::overlay::{Line, Overlay};
 use super::pace::Pace;
 use super::player::Player;
-use super::renderer::{Destination, Renderer, Task};
+use super::renderer::Renderer;
 use super::schedule::Schedule;
 use super::screen::Screen;
 use super::session::{Effect, Session};
+use super::state::{GpuState, Loading, Message, Work};
+use super::task::{Destination, Task};
 use super::translation::Translation;
 use super::{ViewerError, ViewerOptions};
 use crate::backend::BackendChoice;
-use crate::backend::gpu::{Gpu, GpuOptions};
+use crate::backend::gpu::GpuOptions;
 use crate::mesh_source::MeshSource;
 use crate::scene::Scene;
 use std::collections::VecDeque;
@@ -76,51 +78,6 @@ pub struct Application {
     pub(super) quits: bool,
     /// Why the window closed, if it was not asked to.
     pub(super) failure: Option<ViewerError>,
-}
-
-/// What the renderer does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Work {
-    /// Nothing.
-    Idle,
-    /// A picture for the window.
-    Show {
-        /// Edge of the square of the window's pixels that one of its pixels covers.
-        edge: u32,
-        /// Whether the GPU renders it.
-        on_gpu: bool,
-    },
-    /// A picture for a file.
-    Save,
-}
-
-/// A mesh on its way.
-#[derive(Clone, Debug)]
-pub(super) struct Loading {
-    pub source: MeshSource,
-    pub stage: &'static str,
-    pub fraction: f32,
-}
-
-/// A sentence for the person.
-#[derive(Clone, Debug)]
-pub(super) struct Message {
-    pub text: String,
-    pub is_warning: bool,
-    pub until: Instant,
-}
-
-/// What is known of the GPU.
-pub(super) enum GpuState {
-    /// Nobody has opened it, or that went wrong.
-    Closed,
-    /// It is being opened; the viewer ends if that fails and it was asked for on the command line.
-    Opening {
-        /// Whether it was.
-        is_required: bool,
-    },
-    /// It can be used.
-    Open(Arc<Gpu>),
 }
 
 impl Application {

@@ -72,7 +72,7 @@ pub fn figures(caption: &Caption) -> Vec<Line> {
         if caption.phong { "Phong" } else { "flat" }.into(),
     ];
     let mut lines = vec![
-        plain(caption.backend.clone()),
+        plain(joined(&[caption.backend.clone(), "H: keys".into()])),
         strong(joined(&speed)),
         plain(joined(&mesh)),
     ];
@@ -188,7 +188,7 @@ mod tests {
         assert_eq!(
             text(&caption),
             [
-                "CPU, 2 threads",
+                "CPU, 2 threads   H: keys",
                 "59.9 frames/s   kernel 1.50 ms   826 Mrays/s",
                 "69,451 triangles   1280 \u{d7} 968   4 samples   Phong",
             ]

@@ -6,7 +6,7 @@ use super::event::Event;
 use super::input::Input;
 use super::notice::Image;
 use super::player::{self, PATIENCE};
-use super::script::{Expectation, Step};
+use super::step::{Expectation, Step};
 use crate::output::PictureFile;
 use std::io::Write;
 use std::path::Path;

@@ -1,7 +1,8 @@
 //! Where a script is that the window plays.
 
 use super::event::{Button, Event, Key, Modifiers};
-use super::script::{Script, Step};
+use super::script::Script;
+use super::step::Step;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 

@@ -1,0 +1,143 @@
+//! Drawing the window.
+
+use super::application::Application;
+use super::caption::{self, Caption};
+use super::notice::Image;
+use super::overlay::{Line, Overlay};
+use super::screen::{Screen, ScreenError};
+use super::state::GpuState;
+use crate::picture::Picture;
+use crate::view::Shading;
+use glam::Vec3;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// A drawing that failed for the moment is tried again after this.
+const RETRY: Duration = Duration::from_millis(50);
+/// Shown until there is a picture, linear RGB.
+const EMPTY: Vec3 = Vec3::new(0.045, 0.06, 0.085);
+
+impl Application {
+    /// Draws the window.
+    pub(super) fn draw(&mut self, now: Instant) {
+        let (Some(window), true) = (self.window.clone(), self.session.is_visible()) else {
+            return;
+        };
+        self.update_overlay(now);
+        let title = self.title();
+        if title != self.title {
+            window.set_title(&title);
+            self.title = title;
+        }
+        let image = self.image.clone().unwrap_or_else(|| {
+            Image::Cpu(Arc::new(Picture {
+                width: 1,
+                height: 1,
+                sums: vec![EMPTY.extend(1.0)],
+            }))
+        });
+        // The first picture of the GPU's: from now on it draws the window.
+        if let (GpuState::Open(gpu), Image::Gpu(_)) = (&self.gpu, &image)
+            && !self.screen.as_ref().is_some_and(|screen| screen.is_drawn_by(gpu))
+        {
+            let gpu = gpu.clone();
+            self.screen = None;
+            match Screen::gpu(window, gpu) {
+                Ok(screen) => self.screen = Some(screen),
+                Err(error) => {
+                    self.gpu_failed(error.to_string(), now);
+                    return;
+                }
+            }
+        }
+        let Some(screen) = &mut self.screen else { return };
+        if !screen.shows(&image) {
+            return;
+        }
+        match screen.draw(&image, &self.overlay, self.session.size) {
+            Ok(true) if self.image.is_some() && !self.is_shown => {
+                self.is_shown = true;
+                self.figures.frame(now);
+                let elapsed = self.start.elapsed();
+                self.figures.first_picture.get_or_insert(elapsed);
+            }
+            Ok(true) => {}
+            Ok(false) => self.retry = Some(now + RETRY),
+            Err(ScreenError::Backend(error)) => self.gpu_failed(error.and_the_cpu_renders(), now),
+            Err(error @ ScreenError::Surface(_)) => self.gpu_failed(error.to_string(), now),
+            Err(error @ ScreenError::Software(_)) => self.fail(error),
+        }
+    }
+
+    fn update_overlay(&mut self, now: Instant) {
+        let scale = (self.session.scale.round() as u32).max(1);
+        let mut panels = Vec::new();
+        if self.session.figures {
+            panels.push(caption::figures(&self.caption(now)));
+        } else if let Some(loading) = self.loading_text() {
+            panels.push(caption::message(&loading, false, usize::MAX));
+        }
+        if self.session.help {
+            panels.push(caption::help());
+        }
+        // Whoever wants no figures wants to see the picture, unless something went wrong.
+        if let Some(message) = &self.message
+            && (message.is_warning || self.session.figures)
+        {
+            let columns = Overlay::columns(self.session.size[0], scale).min(100);
+            panels.push(caption::message(&message.text, message.is_warning, columns));
+        }
+        self.set_panels(panels, scale);
+    }
+
+    fn set_panels(&mut self, panels: Vec<Vec<Line>>, scale: u32) {
+        if panels != self.panels {
+            self.overlay = Overlay::new(&panels, scale);
+            self.panels = panels;
+        }
+    }
+
+    /// What the figures are now.
+    pub(super) fn caption(&self, now: Instant) -> Caption {
+        Caption {
+            frames_a_second: self.figures.frames_a_second(now),
+            kernel: self.figures.kernel,
+            megarays_a_second: self.figures.megarays_a_second(),
+            triangles: self.scene.as_ref().map(|scene| scene.triangles.len()),
+            size: self.session.size,
+            samples: [self.session.view.samples.count(), self.figures.samples],
+            phong: self.session.view.shading == Shading::Phong,
+            backend: self.backend_name(),
+            loading: self.loading_text(),
+        }
+    }
+
+    /// What rendered the picture that is shown.
+    pub(super) fn backend_name(&self) -> String {
+        let cpu = || format!("CPU, {} threads", rayon::current_num_threads());
+        match (&self.gpu, &self.image) {
+            (GpuState::Open(gpu), Some(Image::Gpu(_))) => gpu.name.clone(),
+            (GpuState::Opening { .. }, _) => format!("{} (the GPU is being opened)", cpu()),
+            _ => cpu(),
+        }
+    }
+
+    fn loading_text(&self) -> Option<String> {
+        let loading = self.loading.as_ref()?;
+        let percent = (loading.fraction * 100.0).round();
+        Some(format!("{} {}: {percent} %", loading.stage, loading.source))
+    }
+
+    fn title(&self) -> String {
+        match (&self.loading, &self.scene) {
+            (Some(_), _) => format!("oktant - {}", self.loading_text().unwrap_or_default()),
+            (None, Some(scene)) => format!(
+                "oktant - {} - {} triangles - {}",
+                self.source,
+                caption::grouped(scene.triangles.len()),
+                self.backend_name()
+            ),
+            (None, None) => "oktant".into(),
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! What the window remembers about the work of others.
+
+use crate::backend::gpu::Gpu;
+use crate::mesh_source::MeshSource;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What the renderer does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Work {
+    /// Nothing.
+    Idle,
+    /// A picture for the window.
+    Show {
+        /// Edge of the square of the window's pixels that one of its pixels covers.
+        edge: u32,
+        /// Whether the GPU renders it.
+        on_gpu: bool,
+    },
+    /// A picture for a file.
+    Save,
+}
+
+/// A mesh on its way.
+#[derive(Clone, Debug)]
+pub struct Loading {
+    pub source: MeshSource,
+    pub stage: &'static str,
+    pub fraction: f32,
+}
+
+/// A sentence for the person.
+#[derive(Clone, Debug)]
+pub struct Message {
+    pub text: String,
+    pub is_warning: bool,
+    pub until: Instant,
+}
+
+/// What is known of the GPU.
+pub enum GpuState {
+    /// Nobody has opened it, or that went wrong.
+    Closed,
+    /// It is being opened; the viewer ends if that fails and it was asked for on the command line.
+    Opening {
+        /// Whether it was.
+        is_required: bool,
+    },
+    /// It can be used.
+    Open(Arc<Gpu>),
+}

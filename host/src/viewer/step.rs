@@ -1,0 +1,68 @@
+//! The steps of a script.
+
+use super::event::{Button, Key};
+use std::path::PathBuf;
+
+/// A step of a script.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Step {
+    /// Drag from the window's middle.
+    Drag {
+        /// The button held down.
+        button: Button,
+        /// Whether Shift is, too.
+        shift: bool,
+        /// Pixels to the right.
+        right: f64,
+        /// Pixels downwards.
+        down: f64,
+    },
+    /// Double click with the left button.
+    DoubleClick,
+    /// Turn the wheel by so many notches.
+    Wheel(f32),
+    /// Press a key.
+    Key {
+        /// Which.
+        key: Key,
+        /// Whether Ctrl is held down.
+        control: bool,
+    },
+    /// Give the window's inside a size.
+    Resize([u32; 2]),
+    /// Minimise the window.
+    Minimise,
+    /// Restore the minimised window.
+    Restore,
+    /// Drop a file on the window.
+    Open(PathBuf),
+    /// Save the picture and wait until it is written.
+    Save(PathBuf),
+    /// Save what the window shows, overlay and all.
+    Screenshot(PathBuf),
+    /// Print the figures.
+    Print,
+    /// Wait until nothing changes any more.
+    WaitSettled,
+    /// Wait until so many new pictures were shown.
+    WaitFrames(u64),
+    /// Wait so many milliseconds.
+    WaitMilliseconds(u64),
+    /// Fail if something is not so.
+    Expect(Expectation),
+    /// Close the window.
+    Quit,
+}
+
+/// What a script can insist on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expectation {
+    /// The first picture was there within so many milliseconds.
+    FirstPicture(u64),
+    /// The shown picture was rendered by a GPU, or by the CPU.
+    Gpu(bool),
+    /// The mesh has so many triangles.
+    Triangles(usize),
+    /// The overlay's message contains this.
+    Message(String),
+}
