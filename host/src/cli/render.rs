@@ -55,11 +55,12 @@ pub fn render(
     let seconds = start.elapsed().as_secs_f64();
     file.save(&picture)?;
     eprintln!(
-        "{}: {} x {} pixels, {} samples each, {triangles} triangles, {}, {seconds:.3} s",
+        "{}: {} x {} pixels, {} each, {}, {}, {seconds:.3} s",
         output.display(),
         size.width,
         size.height,
-        frame.sample_count,
+        counted(frame.sample_count as usize, "sample"),
+        counted(triangles, "triangle"),
         engine.as_backend().name(),
     );
     if repeat > 1 {
@@ -73,4 +74,8 @@ pub fn render(
         ))?;
     }
     Ok(())
+}
+
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
