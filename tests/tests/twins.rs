@@ -165,17 +165,26 @@ fn arithmetic_probe() {
     for module in [ModulePath::Passthrough, ModulePath::Naga] {
         let gpu = open(module);
         let mut operands: Vec<Vec4> = numbers(COUNT * 4, 1).chunks(4).map(Vec4::from_slice).collect();
+        let turned: Vec<Vec4> = operands.iter().map(|o| Vec4::new(o.z, o.w, o.x, o.y)).collect();
         let above_one = 1.0 + f32::EPSILON;
         operands.push(Vec4::new(above_one, above_one, -(1.0 + 2.0 * f32::EPSILON), 0.0));
         let results = gpu.probe_one("probe_arithmetic", &operands).unwrap();
+        // Vulkan leaves it to the driver; the triangle test is watertight either way, but not where it is sometimes so.
         let fused = results[COUNT].x == f32::EPSILON * f32::EPSILON;
         println!("fused multiply-add rounds once: {fused}");
-        assert!(fused, "watertightness on this device rests on it");
+        for (r, turned) in results.iter().zip(gpu.probe_one("probe_arithmetic", &turned).unwrap()) {
+            assert_eq!(r.y, -turned.y, "two triangles see their edge alike");
+        }
         for (o, r) in operands.iter().zip(&results) {
-            assert_eq!(r.x, fused_multiply_add(o.x, o.y, o.z), "{o}");
             let exact = f64::from(o.x) * f64::from(o.y) - f64::from(o.z) * f64::from(o.w);
-            assert_eq!(r.y > 0.0, exact > 0.0, "{o}: the sign is exact on the GPU");
-            assert!(close(r.y, exact as f32, 3e-7), "{o}");
+            if fused {
+                assert_eq!(r.x, fused_multiply_add(o.x, o.y, o.z), "{o}");
+                assert_eq!(r.y > 0.0, exact > 0.0, "{o}: the sign is exact");
+                assert!(close(r.y, exact as f32, 3e-7), "{o}");
+            } else {
+                assert_eq!(r.x, o.x * o.y + o.z, "{o}");
+                assert_eq!(r.y, o.x * o.y - o.z * o.w, "{o}");
+            }
             let plain = difference_of_products(o.x, o.y, o.z, o.w);
             let size = (o.x * o.y).abs() + (o.z * o.w).abs();
             assert!((plain - r.y).abs() <= 1.2e-7 * size, "{o}");
