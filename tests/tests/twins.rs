@@ -3,9 +3,9 @@
 //! All tests here need a Vulkan driver; lavapipe will do. They take the best adapter there is.
 
 use glam::{Vec3, Vec4, vec3};
-use oktant::backend::Backend;
 use oktant::backend::cpu::Cpu;
 use oktant::backend::gpu::{Gpu, GpuBackend, GpuOptions, ModulePath};
+use oktant::backend::{Backend, BackendError};
 use oktant::balls::balls;
 use oktant::mesh::Mesh;
 use oktant::mesh_source::MeshSource;
@@ -141,6 +141,22 @@ fn colors_of_vertices_reach_the_picture() {
     sides_agree("coloured balls", &mesh, ModulePath::Auto);
 }
 
+#[test]
+#[ignore = "needs a Vulkan driver"]
+fn what_does_not_fit_is_refused_in_a_sentence() {
+    let scene = Scene::new(&balls(), &OctreeOptions::default(), &silent).unwrap();
+    let gpu = open(ModulePath::Auto);
+    let mut backend = GpuBackend::new(gpu, &scene).unwrap();
+    // 16 bytes a pixel: more than any device binds.
+    let frame = View::default().frame(&scene, 1 << 15, 1 << 15);
+    let error = backend.render(&frame, &silent).unwrap_err();
+    assert!(matches!(error, BackendError::TooLarge { bytes, limit, .. } if bytes == 16 << 30 && limit < bytes));
+    assert!(error.to_string().contains("--backend cpu"), "{error}");
+    // Nothing is broken by it.
+    let frame = View::default().frame(&scene, 64, 64);
+    assert!(backend.render(&frame, &silent).is_ok());
+}
+
 /// Numbers of all signs and sizes.
 fn numbers(count: usize, seed: u64) -> Vec<f32> {
     let mut random = fastrand::Rng::with_seed(seed);
@@ -174,7 +190,11 @@ fn arithmetic_probe() {
         println!("fused multiply-add rounds once: {fused}");
         for (r, turned) in results.iter().zip(gpu.probe_one("probe_arithmetic", &turned).unwrap()) {
             let sign = |y: f32| (y > 0.0, y < 0.0);
-            assert_eq!(sign(r.y), sign(-turned.y), "two triangles are on opposite sides of their edge");
+            assert_eq!(
+                sign(r.y),
+                sign(-turned.y),
+                "two triangles are on opposite sides of their edge"
+            );
         }
         for (o, r) in operands.iter().zip(&results) {
             let exact = f64::from(o.x) * f64::from(o.y) - f64::from(o.z) * f64::from(o.w);

@@ -48,9 +48,7 @@ pub fn render(
     let mut engine = Engine::new(engine, &scene)?;
     let start = Instant::now();
     let bar = ProgressBar::new();
-    let picture = engine
-        .as_backend()
-        .render(&frame, &|stage, fraction| bar.show(stage, fraction))?;
+    let picture = engine.render(&frame, &|stage, fraction| bar.show(stage, fraction))?;
     drop(bar);
     let seconds = start.elapsed().as_secs_f64();
     file.save(&picture)?;
@@ -61,7 +59,7 @@ pub fn render(
         size.height,
         counted(frame.sample_count as usize, "sample"),
         counted(triangles, "triangle"),
-        engine.as_backend().name(),
+        engine.name(),
     );
     if repeat > 1 {
         let mut times = engine.time_render(&frame, repeat)?;
