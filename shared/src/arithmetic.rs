@@ -87,13 +87,14 @@ pub fn multiply_subtract(a: f32, b: f32, c: f32) -> f32 {
     }
 }
 
-/// `a * b - c * d`, exactly antisymmetric: swapping the products flips the sign and nothing else.
+/// `a * b - c * d`, whose sign flips when the products are swapped.
 ///
 /// This is the edge function of the watertight triangle test; two triangles that share an edge see it with opposite
 /// sign, so that none of the ray's crossings falls between them. Natively the plain expression has the property. On a
 /// GPU a driver may contract it into `fma(a, b, -(c * d))`, which has not, so there it is Kahan's difference of products
 /// (C.-P. Jeannerod, N. Louvet, J.-M. Muller, "Further analysis of Kahan's algorithm for the accurate computation of
-/// 2x2 determinants", Math. Comp. 82, 2013), whose error of 1.5 units in the last place never changes a sign.
+/// 2x2 determinants", Math. Comp. 82, 2013), whose error of 1.5 units in the last place never changes a sign. Where a
+/// driver's `Fma` rounds twice, it is the plain expression again.
 #[inline]
 pub fn difference_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
     #[cfg(target_arch = "spirv")]

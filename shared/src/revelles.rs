@@ -97,14 +97,19 @@ struct Entered {
 /// Of the way to the root, the part that is not advanced: above the rounding error of the root's entry.
 const KEPT_BACK: f32 = 1.0 / (1 << 20) as f32;
 
+/// A ray that reaches the root within so many of its edge lengths is not advanced: its `t` resolves the cells anyway,
+/// and a ray exactly through an edge stays so, where an advanced origin would be rounded off it.
+const NEARBY: f32 = 4.0;
+
 impl Entered {
     #[inline]
     fn new<B: BoxTest>(scene: &Scene<'_>, ray: &Ray) -> Self {
         let mut ray = PreparedRay::new(ray);
         let Interval { enter, exit } = B::prepare(&ray).interval(&scene.root.aabb());
         let inside = ray.valid && enter <= exit && exit >= ray.t_min && enter * (1.0 - KEPT_BACK) <= ray.t_max;
-        let advance = if inside {
-            max(enter, 0.0) * (1.0 - KEPT_BACK)
+        // The prepared direction is 1 to 2 long along its main axis.
+        let advance = if inside && enter > NEARBY * (scene.root.high.x - scene.root.low.x) {
+            enter * (1.0 - KEPT_BACK)
         } else {
             0.0
         };

@@ -4,5 +4,6 @@ pub mod compare;
 pub mod data;
 pub mod exact;
 pub mod meshes;
+pub mod program;
 pub mod ray_classes;
 pub mod tally;

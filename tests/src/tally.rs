@@ -36,10 +36,16 @@ impl Tally {
 
     /// How many disagree with an excuse.
     pub fn excused(&self) -> usize {
-        OUTCOMES
-            .iter()
-            .flat_map(|&(outcome, _)| [Excuse::Edge, Excuse::Limit].map(|excuse| self.count(outcome, excuse)))
-            .sum()
+        OUTCOMES.iter().map(|&(outcome, _)| self.excused_as(outcome)).sum()
+    }
+
+    /// How many overlooked a hit with an excuse: what they report is missing or farther.
+    pub fn overlooked(&self) -> usize {
+        self.excused_as(Outcome::Missed) + self.excused_as(Outcome::Farther)
+    }
+
+    fn excused_as(&self, outcome: Outcome) -> usize {
+        self.count(outcome, Excuse::Edge) + self.count(outcome, Excuse::Limit)
     }
 }
 
@@ -58,7 +64,7 @@ impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "{} rays", self.total())?;
         for (outcome, name) in OUTCOMES {
-            let excused = self.count(outcome, Excuse::Edge) + self.count(outcome, Excuse::Limit);
+            let excused = self.excused_as(outcome);
             write!(f, ", {name} {}", self.count(outcome, Excuse::None))?;
             if excused > 0 {
                 write!(f, "+{excused}")?;
@@ -84,6 +90,7 @@ mod tests {
         .into_iter()
         .collect();
         assert_eq!((tally.total(), tally.wrong(), tally.excused()), (4, 1, 2));
+        assert_eq!(tally.overlooked(), 1);
         assert_eq!(tally.count(Outcome::Missed, Excuse::Edge), 1);
         assert_eq!(
             tally.to_string(),

@@ -20,8 +20,12 @@ use rayon::prelude::*;
 /// Rays of each class on each mesh.
 const RAYS: usize = 100_000;
 
-/// Of all rays, how many may disagree because they pass an edge within the f32 error.
-const NEAR_EDGE: f64 = 1e-6;
+/// Of all rays, how many may overlook a hit because they pass an edge within the f32 error.
+const OVERLOOKED: f64 = 1e-6;
+
+/// Of all rays, how many may differ from the oracle in any way within the f32 error. Most find something nearer: edges
+/// of a closed surface belong to both neighbours, and the classes aim at edges on purpose.
+const EXCUSED: f64 = 2e-5;
 
 struct Stage {
     name: &'static str,
@@ -113,7 +117,7 @@ impl Stage {
 
 #[test]
 fn the_standard_traversal_equals_the_oracle() {
-    let (mut total, mut excused, mut wrong) = (0, 0, 0);
+    let (mut total, mut overlooked, mut excused, mut wrong) = (0, 0, 0, 0);
     let mut count = |name: &str, class: RayClass, query: &str, tally: Tally| {
         if tally.wrong() + tally.excused() > 0 {
             println!("{name}, class {} ({}), {query}: {tally}", class.number(), class.name());
@@ -121,6 +125,7 @@ fn the_standard_traversal_equals_the_oracle() {
         // From 10^5 sizes away f32 itself cannot aim; what that costs is printed.
         if class != RayClass::AimedVeryFar {
             total += tally.total();
+            overlooked += tally.overlooked();
             excused += tally.excused();
             wrong += tally.wrong();
         }
@@ -141,9 +146,13 @@ fn the_standard_traversal_equals_the_oracle() {
             count(stage.name, class, "any, limited", stage.any::<Standard>(&limited));
         }
     }
-    println!("{total} rays: {wrong} wrong, {excused} within the f32 error of an edge or limit");
+    println!(
+        "{total} rays: {wrong} wrong, {excused} within the f32 error of an edge or limit, of these {overlooked} missed \
+         or farther"
+    );
     assert_eq!(wrong, 0);
-    assert!(excused as f64 <= NEAR_EDGE * total as f64);
+    assert!(overlooked as f64 <= OVERLOOKED * total as f64);
+    assert!(excused as f64 <= EXCUSED * total as f64);
 }
 
 /// Every combination of parts goes through the same; Moller-Trumbore leaks at edges by nature, so its counts are bounded

@@ -1,54 +1,86 @@
 //! Choosing what renders.
 
-use super::Failure;
 use super::arguments::EngineArguments;
 use oktant::backend::cpu::Cpu;
 use oktant::backend::gpu::{Gpu, GpuBackend, GpuOptions};
 use oktant::backend::{Backend, BackendChoice, BackendError};
+use oktant::picture::Picture;
+use oktant::progress::Progress;
 use oktant::scene::Scene;
 use oktant_shared::frame::Frame;
 use std::sync::Arc;
 use std::time::Instant;
 
 /// A back end with a scene.
-pub enum Engine {
+pub struct Engine {
+    kind: Kind,
+    /// What the CPU renders should the GPU give up; none where the person asked for a certain back end.
+    fallback: Option<Arc<Scene>>,
+}
+
+enum Kind {
     Cpu(Cpu),
     Gpu(GpuBackend),
 }
 
 impl Engine {
     /// The back end that the arguments choose. `auto` says why where it does not take a GPU.
-    pub fn new(arguments: &EngineArguments, scene: &Arc<Scene>) -> Result<Self, Failure> {
-        let cpu = || Engine::Cpu(Cpu::new(scene.clone()));
-        let gpu = |software| -> Result<Engine, BackendError> {
+    pub fn new(arguments: &EngineArguments, scene: &Arc<Scene>) -> Result<Self, BackendError> {
+        let choice = arguments.choice();
+        let gpu = |software| {
             let gpu = Gpu::open(&GpuOptions {
                 software,
                 module: arguments.module(),
             })?;
-            Ok(Engine::Gpu(GpuBackend::new(Arc::new(gpu), scene)?))
+            GpuBackend::new(Arc::new(gpu), scene).map(Kind::Gpu)
         };
-        match arguments.choice() {
-            BackendChoice::Cpu => Ok(cpu()),
-            BackendChoice::Gpu => Ok(gpu(true)?),
-            BackendChoice::Auto => Ok(gpu(false).unwrap_or_else(|error| {
-                eprintln!("{}", error.and_the_cpu_renders());
-                cpu()
-            })),
+        let mut engine = Engine {
+            kind: Kind::Cpu(Cpu::new(scene.clone())),
+            fallback: (choice == BackendChoice::Auto).then(|| scene.clone()),
+        };
+        match choice {
+            BackendChoice::Cpu => {}
+            BackendChoice::Gpu => engine.kind = gpu(true)?,
+            BackendChoice::Auto => match gpu(false) {
+                Ok(gpu) => engine.kind = gpu,
+                Err(error) => eprintln!("{}", error.and_the_cpu_renders()),
+            },
+        }
+        Ok(engine)
+    }
+
+    /// What it runs on, for people.
+    pub fn name(&self) -> String {
+        match &self.kind {
+            Kind::Cpu(cpu) => cpu.name(),
+            Kind::Gpu(gpu) => gpu.name(),
         }
     }
 
-    pub fn as_backend(&mut self) -> &mut dyn Backend {
-        match self {
-            Engine::Cpu(cpu) => cpu,
-            Engine::Gpu(gpu) => gpu,
+    /// Renders a frame. Where nobody insisted on the GPU and it cannot, the CPU does, here and from now on.
+    pub fn render(&mut self, frame: &Frame, progress: Progress<'_>) -> Result<Picture, BackendError> {
+        let result = match &mut self.kind {
+            Kind::Cpu(cpu) => cpu.render(frame, progress),
+            Kind::Gpu(gpu) => gpu.render(frame, progress),
+        };
+        match (result, self.fallback.take()) {
+            (Err(error), Some(scene)) => {
+                eprintln!("{}", error.and_the_cpu_renders());
+                self.kind = Kind::Cpu(Cpu::new(scene));
+                self.render(frame, progress)
+            }
+            (result, fallback) => {
+                self.fallback = fallback;
+                result
+            }
         }
     }
 
     /// Milliseconds that the kernel takes for a frame, several times over: by the GPU's clock, or by the wall's.
     pub fn time_render(&mut self, frame: &Frame, repeats: u32) -> Result<Vec<f64>, BackendError> {
-        match self {
-            Engine::Gpu(gpu) => gpu.time_render(frame, repeats),
-            Engine::Cpu(cpu) => (0..repeats)
+        match &mut self.kind {
+            Kind::Gpu(gpu) => gpu.time_render(frame, repeats),
+            Kind::Cpu(cpu) => (0..repeats)
                 .map(|_| {
                     let start = Instant::now();
                     cpu.render(frame, &oktant::progress::silent)?;

@@ -48,19 +48,18 @@ pub fn render(
     let mut engine = Engine::new(engine, &scene)?;
     let start = Instant::now();
     let bar = ProgressBar::new();
-    let picture = engine
-        .as_backend()
-        .render(&frame, &|stage, fraction| bar.show(stage, fraction))?;
+    let picture = engine.render(&frame, &|stage, fraction| bar.show(stage, fraction))?;
     drop(bar);
     let seconds = start.elapsed().as_secs_f64();
     file.save(&picture)?;
     eprintln!(
-        "{}: {} x {} pixels, {} samples each, {triangles} triangles, {}, {seconds:.3} s",
+        "{}: {} x {} pixels, {} each, {}, {}, {seconds:.3} s",
         output.display(),
         size.width,
         size.height,
-        frame.sample_count,
-        engine.as_backend().name(),
+        counted(frame.sample_count as usize, "sample"),
+        counted(triangles, "triangle"),
+        engine.name(),
     );
     if repeat > 1 {
         let mut times = engine.time_render(&frame, repeat)?;
@@ -73,4 +72,8 @@ pub fn render(
         ))?;
     }
     Ok(())
+}
+
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

@@ -1,0 +1,246 @@
+//! The command line: what it does, and how it fails.
+
+use oktant_tests::program::{Run, finish, oktant, run};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use tempfile::{TempDir, tempdir};
+
+/// A folder for a run, with a PLY file of one triangle in it.
+fn folder() -> TempDir {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("triangle.ply"), ply(3, "3 0 1 2\n")).unwrap();
+    folder
+}
+
+/// An ascii PLY file with the corners of a right triangle and faces as given.
+fn ply(vertices: usize, faces: &str) -> String {
+    let corners: String = ["0 0 0\n", "1 0 0\n", "0 1 0\n"][..vertices].concat();
+    format!(
+        "ply\nformat ascii 1.0\nelement vertex {vertices}\nproperty float x\nproperty float y\nproperty float z\n\
+         element face {}\nproperty list uchar int vertex_indices\nend_header\n{corners}{faces}",
+        faces.lines().count()
+    )
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+/// The run failed with this exit code, in one sentence with these words, and left nothing behind.
+#[track_caller]
+fn assert_failed(folder: &Path, before: &[String], run: &Run, words: &[&str]) {
+    assert_eq!(run.code, Some(1), "{}", run.error);
+    let sentence = run.error.trim_end();
+    assert!(
+        sentence.starts_with("oktant: ") && !sentence.contains('\n'),
+        "{sentence}"
+    );
+    assert!(run.output.is_empty(), "{}", run.output);
+    for word in words {
+        assert!(sentence.contains(word), "{word:?} is not in {sentence:?}");
+    }
+    assert_eq!(names(folder), before);
+}
+
+#[test]
+fn a_picture_is_rendered() {
+    let folder = folder();
+    for (mesh, extra, size) in [
+        ("triangle.ply", "--up=z", (40, 30)),
+        ("balls", "--samples=16", (33, 17)),
+        ("bunny", "--shading=flat", (64, 48)),
+    ] {
+        let size_argument = format!("{}x{}", size.0, size.1);
+        let arguments = [
+            "render",
+            mesh,
+            "-o",
+            "a.PNG",
+            "--size",
+            &size_argument,
+            extra,
+            "--backend=cpu",
+        ];
+        let run = run(folder.path(), arguments);
+        assert_eq!(run.code, Some(0), "{}", run.error);
+        assert_eq!(run.output, "");
+        let expected = format!("a.PNG: {} x {} pixels", size.0, size.1);
+        assert!(run.error.starts_with(&expected), "{}", run.error);
+        assert!(
+            !run.error.contains(['\x1b', '\r']),
+            "no progress, no colours: {:?}",
+            run.error
+        );
+        let picture = image::open(folder.path().join("a.PNG")).unwrap().to_rgb8();
+        assert_eq!(picture.dimensions(), size);
+        let colors: std::collections::HashSet<_> = picture.pixels().collect();
+        assert!(colors.len() > 1, "{mesh} is in the picture");
+    }
+    assert_eq!(names(folder.path()), ["a.PNG", "triangle.ply"]);
+}
+
+#[test]
+fn wrong_arguments_are_refused_with_code_2() {
+    let folder = folder();
+    for arguments in [
+        &["render", "bunny"][..],
+        &["render", "bunny", "-o", "a.jpg"],
+        &["render", "bunny", "-o", "a"],
+        &["render", "bunny", "-o", "a.png", "--size", "0x5"],
+        &["render", "bunny", "-o", "a.png", "--size", "5"],
+        &["render", "bunny", "-o", "a.png", "--size", "99999x99999"],
+        &["render", "bunny", "-o", "a.png", "--samples", "3"],
+        &["render", "bunny", "-o", "a.png", "--shading", "gouraud"],
+        &["render", "bunny", "-o", "a.png", "--backend", "cuda"],
+        &["render", "bunny", "-o", "a.png", "--elevation", "91"],
+        &["render", "bunny", "-o", "a.png", "--azimuth", "NaN"],
+        &["render", "bunny", "-o", "a.png", "--distance", "0"],
+        &["render", "bunny", "-o", "a.png", "--fov", "180"],
+        &["render", "bunny", "-o", "a.png", "--up", "x"],
+        &["render", "bunny", "-o", "a.png", "--octree", "depth=99"],
+        &["render", "bunny", "balls", "-o", "a.png"],
+        &["draw", "bunny"],
+        &["--fast"],
+        &["info", "--size", "1x1"],
+        &["completions", "tcsh"],
+    ] {
+        let run = run(folder.path(), arguments);
+        assert_eq!(run.code, Some(2), "{arguments:?}: {}", run.error);
+        assert!(!run.error.trim().is_empty() && run.output.is_empty(), "{arguments:?}");
+        assert!(!run.error.contains("panicked"), "{}", run.error);
+    }
+    assert_eq!(names(folder.path()), ["triangle.ply"]);
+}
+
+#[test]
+fn meshes_that_cannot_be_rendered_are_refused_with_code_1() {
+    let folder = folder();
+    let write = |name: &str, content: &str| fs::write(folder.path().join(name), content).unwrap();
+    write("empty.ply", "");
+    write("no_faces.ply", &ply(3, ""));
+    write("no_vertices.ply", &ply(0, ""));
+    write("points.ply", &ply(3, "3 0 0 0\n3 1 1 2\n"));
+    write("outside.ply", &ply(3, "3 0 1 3\n"));
+    write("text.ply", "Dear reader,\n");
+    fs::create_dir(folder.path().join("folder.ply")).unwrap();
+    let before = names(folder.path());
+    for (mesh, words) in [
+        ("missing.ply", &["missing.ply", "no such file"][..]),
+        ("folder.ply", &["directory"]),
+        ("triangle.ply/a.ply", &["triangle.ply/a.ply"]),
+        ("empty.ply", &["empty"]),
+        ("no_faces.ply", &["no faces"]),
+        ("no_vertices.ply", &["no_vertices.ply"]),
+        ("points.ply", &["area"]),
+        ("outside.ply", &["vertex 3"]),
+        ("text.ply", &["not a PLY file"]),
+        ("bunyn", &["bunyn"]),
+    ] {
+        let rendered = run(folder.path(), ["render", mesh, "-o", "a.png", "--size", "8x8"]);
+        assert_failed(folder.path(), &before, &rendered, words);
+        let told = run(folder.path(), ["info", mesh]);
+        assert_failed(folder.path(), &before, &told, words);
+    }
+}
+
+#[test]
+fn files_that_cannot_be_written_are_refused_with_code_1() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("b.png")).unwrap();
+    let before = names(folder.path());
+    for (output, words) in [
+        ("nowhere/a.png", &["nowhere", "does not exist"][..]),
+        ("triangle.ply/a.png", &["triangle.ply"]),
+        ("b.png", &["b.png is not a file"]),
+        #[cfg(target_os = "linux")]
+        ("/proc/a.png", &["/proc/a.png cannot be written"]),
+        #[cfg(target_os = "linux")]
+        ("/dev/null/a.png", &["/dev/null"]),
+    ] {
+        let run = run(folder.path(), ["render", "balls", "-o", output, "--size", "8x8"]);
+        assert_failed(folder.path(), &before, &run, words);
+    }
+}
+
+/// A limit to the size of files makes the system refuse to write on, as a full disk does.
+#[cfg(unix)]
+#[test]
+fn a_picture_that_does_not_fit_leaves_the_old_one() {
+    let folder = folder();
+    fs::write(folder.path().join("a.png"), "the old one").unwrap();
+    let before = names(folder.path());
+    let script = r#"trap '' XFSZ; ulimit -f 16; exec "$0" render bunny -o a.png --backend cpu --size 640x480"#;
+    let mut command = Command::new("sh");
+    command.arg("-c").arg(script).arg(oktant()).current_dir(folder.path());
+    let run = finish(&mut command);
+    assert_failed(folder.path(), &before, &run, &["a.png cannot be written"]);
+    assert_eq!(fs::read_to_string(folder.path().join("a.png")).unwrap(), "the old one");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_told() {
+    let folder = folder();
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = Command::new(oktant())
+        .args(["completions", "bash"])
+        .stdout(full)
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        error.starts_with("oktant: Standard output cannot be written"),
+        "{error}"
+    );
+}
+
+#[test]
+fn info_has_the_figures() {
+    let folder = folder();
+    let run = run(folder.path(), ["info", "bunny"]);
+    assert_eq!(run.code, Some(0), "{}", run.error);
+    for word in [
+        "69451 (0 without area",
+        "box ",
+        "octree ",
+        "nodes ",
+        "per triangle",
+        "leaves ",
+        "bytes ",
+        "ms to build",
+        "entry points",
+        "adapter ",
+    ] {
+        assert!(run.output.contains(word), "{word:?} is not in\n{}", run.output);
+    }
+}
+
+#[test]
+fn help_version_and_completions_are_printed() {
+    let folder = folder();
+    let version = run(folder.path(), ["--version"]);
+    assert_eq!(version.output.trim(), concat!("oktant ", env!("CARGO_PKG_VERSION")));
+    for arguments in [
+        &["--help"][..],
+        &["help", "render"],
+        &["view", "--help"],
+        &["info", "-h"],
+    ] {
+        let help = run(folder.path(), arguments);
+        assert_eq!(help.code, Some(0));
+        assert!(help.output.contains("Usage: oktant"), "{}", help.output);
+    }
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let completions = run(folder.path(), ["completions", shell]);
+        assert_eq!(completions.code, Some(0));
+        assert!(completions.output.contains("light-azimuth"), "{shell}");
+    }
+}
