@@ -43,7 +43,7 @@ impl HitDifferences {
         for (index, (a, b)) in first.iter().zip(second).enumerate() {
             if a.triangle != b.triangle {
                 differences.other_triangle.push((index, *a, *b));
-            } else if a.is_hit() && !((a.t - b.t).abs() <= Tolerance::T * b.t.abs()) {
+            } else if a.is_hit() && !same_t(a.t, b.t) {
                 differences.other_t.push((index, *a, *b));
             }
         }
@@ -56,6 +56,11 @@ impl HitDifferences {
         self.other_triangle.len() as f64 <= Tolerance::OTHER_TRIANGLE * pixels
             && self.other_t.len() as f64 <= Tolerance::OTHER_T * pixels
     }
+}
+
+/// Whether two `t` agree; not a number agrees with nothing.
+fn same_t(a: f32, b: f32) -> bool {
+    (a - b).abs() <= Tolerance::T * b.abs()
 }
 
 impl fmt::Display for HitDifferences {

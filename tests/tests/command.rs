@@ -1,5 +1,7 @@
 //! The command line: what it does, and how it fails.
 
+#![cfg(test)]
+
 use oktant_tests::program::{Run, finish, oktant, run};
 use std::fs;
 use std::path::Path;

@@ -1,5 +1,7 @@
 //! Closed meshes have no holes, and rays that leave a surface do not meet it.
 
+#![cfg(test)]
+
 use glam::{DMat3, DVec3, Vec3};
 use oktant::backend::Backend;
 use oktant::backend::cpu::Cpu;

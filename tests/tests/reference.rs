@@ -1,5 +1,7 @@
 //! The reference data: PLY files of all kinds, and large meshes against the clock.
 
+#![cfg(test)]
+
 use oktant_tests::data::reference;
 use oktant_tests::program::{Run, run};
 use std::collections::BTreeMap;

@@ -1,5 +1,7 @@
 //! The octree traversal against the oracle: 13 classes of rays on six meshes.
 
+#![cfg(test)]
+
 use oktant::mesh::Mesh;
 use oktant::mesh_source::MeshSource;
 use oktant::octree::OctreeOptions;

@@ -2,6 +2,8 @@
 //!
 //! All tests here need a Vulkan driver; lavapipe will do. They take the best adapter there is.
 
+#![cfg(test)]
+
 use glam::{Vec3, Vec4, vec3};
 use oktant::backend::cpu::Cpu;
 use oktant::backend::gpu::{Gpu, GpuBackend, GpuOptions, ModulePath};

@@ -111,7 +111,7 @@ mod tests {
         let center = vec3(0.5, -0.25, 0.125);
         let mut tested = 0;
         let mut several = 0;
-        for round in 0..40_000 {
+        for round in 0..60_000 {
             let size = [0.2, 1.0, 5.0][round % 3];
             let about = vec3(next(1.0), next(1.0), next(1.0));
             let corners = [(); 3].map(|()| about + vec3(next(size), next(size), next(size)));
@@ -136,7 +136,10 @@ mod tests {
                 }
             }
         }
-        assert!(tested > 20_000 && several > 5_000);
+        assert!(
+            tested > 20_000 && several > 5_000,
+            "{tested} tested, {several} in several children"
+        );
     }
 
     #[test]
