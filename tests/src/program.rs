@@ -14,7 +14,8 @@ static OKTANT: LazyLock<PathBuf> = LazyLock::new(|| {
     // program lies beside them.
     if let Some(cargo) = std::env::var_os("CARGO") {
         let mut build = Command::new(cargo);
-        build.args(["build", "--quiet", "--package", "oktant", "--manifest-path"]);
+        // Of the whole workspace, so that its dependencies have the features that they were compiled with for the tests.
+        build.args(["build", "--quiet", "--workspace", "--bin", "oktant", "--manifest-path"]);
         build.arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.toml"));
         build
             .arg("--target-dir")

@@ -11,9 +11,9 @@ use oktant::octree::OctreeOptions;
 use oktant::progress::silent;
 use oktant::scene::Scene;
 use oktant::view::{Place, Samples, Shading, View};
+use oktant_tests::program::oktant;
 use std::fmt;
 use std::io::Read;
-use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, LazyLock};
 use std::thread;
@@ -25,28 +25,6 @@ pub type Image = image::RgbImage;
 
 /// Whatever takes longer has gone wrong.
 const PATIENCE: Duration = Duration::from_secs(60);
-
-/// The program, built for these tests: tests of another package do not build it.
-static PROGRAM: LazyLock<PathBuf> = LazyLock::new(|| {
-    let built = Command::new(env!("CARGO"))
-        .args(["build", "--release", "--package", "oktant"])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .status()
-        .expect("cargo starts");
-    assert!(built.success(), "the program cannot be built; see above");
-    let test = std::env::current_exe().expect("a test knows its file");
-    // target/PROFILE/deps/TEST
-    let target = test.ancestors().nth(3).expect("tests lie in the target folder");
-    let program = target
-        .join("release")
-        .join(format!("oktant{}", std::env::consts::EXE_SUFFIX));
-    assert!(
-        program.is_file(),
-        "{} is missing; build it with: cargo build --release",
-        program.display()
-    );
-    program
-});
 
 /// A folder in which the program runs.
 pub struct Session {
@@ -68,7 +46,7 @@ impl Session {
 
     /// The program with arguments, in the folder.
     pub fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(&*PROGRAM);
+        let mut command = Command::new(oktant());
         command
             .args(arguments)
             .current_dir(self.folder.path())
