@@ -9,7 +9,7 @@ use oktant_shared::ray::Ray;
 use oktant_shared::revelles::Revelles;
 use oktant_shared::scene::Scene;
 use oktant_shared::traversal::Traversal;
-use oktant_shared::triangle::{Triangle, Vertex};
+use oktant_shared::triangle::Triangle;
 use oktant_shared::triangle_test::{MollerTrumbore, Watertight};
 use spirv_std::spirv;
 
@@ -25,7 +25,6 @@ macro_rules! cast {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[Node],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] references: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] triangles: &[Triangle],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] vertices: &[Vertex],
             #[spirv(uniform, descriptor_set = 1, binding = 0)] frame: &Frame,
             #[spirv(storage_buffer, descriptor_set = 2, binding = 0)] hits: &mut [Hit],
             #[spirv(storage_buffer, descriptor_set = 2, binding = 1)] rays: &[Ray],
@@ -37,7 +36,6 @@ macro_rules! cast {
                     nodes,
                     references,
                     triangles,
-                    vertices,
                 };
                 hits[index] = $query::<$traversal>(&scene, &rays[index]);
             }

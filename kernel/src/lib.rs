@@ -1,7 +1,8 @@
 //! Entry points of oktant's GPU kernel, compiled to SPIR-V by rust-gpu.
 //!
 //! An entry point guards against invocations beyond the end of its buffers, calls a function of `oktant-shared` and
-//! stores the result. Descriptor set 0 holds the scene, set 1 the frame, set 2 what is read and written per invocation.
+//! stores the result. Descriptor set 0 holds what rays meet, set 1 the frame, set 2 what is read and
+//! written per invocation, set 3 what surfaces look like.
 #![cfg_attr(target_arch = "spirv", no_std)]
 #![expect(
     clippy::too_many_arguments,
@@ -9,7 +10,6 @@
 )]
 
 pub mod cast;
-pub mod hits;
 pub mod present;
 pub mod probe;
 pub mod render;

@@ -1,40 +1,113 @@
-//! The picture.
+//! The picture, and what each pixel sees.
 
-use glam::{UVec3, Vec3Swizzles, Vec4};
+use glam::{UVec2, UVec3, Vec2, Vec3Swizzles, Vec4};
 use oktant_shared::frame::Frame;
+use oktant_shared::hit::Hit;
+use oktant_shared::light::Light;
+use oktant_shared::material::Material;
 use oktant_shared::octree::Node;
-use oktant_shared::render::render_pixel;
-use oktant_shared::scene::Scene;
+use oktant_shared::plane::Plane;
+use oktant_shared::render::{Pixel, hit_pixel, render_pixel};
+use oktant_shared::scene::{Appearance, Scene, World};
+use oktant_shared::texture::Texture;
 use oktant_shared::traversal::Standard;
 use oktant_shared::triangle::{Triangle, Vertex};
 use spirv_std::spirv;
 
-/// Adds this pass's samples to each pixel of `picture`, row by row from the upper left; the first pass overwrites.
-#[spirv(compute(threads(8, 8), entry_point_name = "render"))]
-pub fn render(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[Node],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] references: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] triangles: &[Triangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] vertices: &[Vertex],
-    #[spirv(uniform, descriptor_set = 1, binding = 0)] frame: &Frame,
-    #[spirv(storage_buffer, descriptor_set = 2, binding = 0)] picture: &mut [Vec4],
-) {
-    let pixel = id.xy();
-    if pixel.x < frame.camera.width && pixel.y < frame.camera.height {
-        let scene = Scene {
-            root: frame.root,
-            nodes,
-            references,
-            triangles,
-            vertices,
-        };
-        let color = render_pixel::<Standard>(frame, &scene, pixel);
-        let index = (pixel.y * frame.camera.width + pixel.x) as usize;
+/// An entry point that looks at a pixel: `$of` makes a value from the frame, the world and the pixel, `$store` puts it
+/// into the output.
+macro_rules! pixels {
+    (
+        $doc:literal, $entry:literal, $name:ident, $of:expr,
+        { $($binding:literal $output:ident: $kind:ty),+ } $store:expr
+    ) => {
+        #[doc = $doc]
+        #[spirv(compute(threads(8, 8), entry_point_name = $entry))]
+        pub fn $name(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[Node],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] references: &[u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] triangles: &[Triangle],
+            #[spirv(uniform, descriptor_set = 1, binding = 0)] frame: &Frame,
+            $(#[spirv(storage_buffer, descriptor_set = 2, binding = $binding)] $output: &mut [$kind],)+
+            #[spirv(storage_buffer, descriptor_set = 3, binding = 0)] vertices: &[Vertex],
+            #[spirv(storage_buffer, descriptor_set = 3, binding = 1)] coordinates: &[Vec2],
+            #[spirv(storage_buffer, descriptor_set = 3, binding = 2)] material_ids: &[u32],
+            #[spirv(storage_buffer, descriptor_set = 3, binding = 3)] materials: &[Material],
+            #[spirv(storage_buffer, descriptor_set = 3, binding = 4)] lights: &[Light],
+            #[spirv(storage_buffer, descriptor_set = 3, binding = 5)] planes: &[Plane],
+            #[spirv(storage_buffer, descriptor_set = 3, binding = 6)] textures: &[Texture],
+            #[spirv(storage_buffer, descriptor_set = 3, binding = 7)] texels: &[u32],
+        ) {
+            let pixel = id.xy();
+            if pixel.x < frame.camera.width && pixel.y < frame.camera.height {
+                let world = World {
+                    scene: Scene {
+                        root: frame.root,
+                        nodes,
+                        references,
+                        triangles,
+                    },
+                    appearance: Appearance {
+                        vertices,
+                        coordinates,
+                        material_ids,
+                        materials,
+                        lights,
+                        planes,
+                        textures,
+                        texels,
+                    },
+                };
+                let index = (pixel.y * frame.camera.width + pixel.x) as usize;
+                $store(frame, index, $of(frame, &world, pixel), $($output),+);
+            }
+        }
+    };
+}
+
+/// Adds to the pixel; the first pass overwrites. `work` may hold fewer pixels, or none.
+fn add(frame: &Frame, index: usize, pixel: Pixel, picture: &mut [Vec4], work: &mut [Vec4]) {
+    if frame.first_sample == 0 {
+        picture[index] = pixel.sum;
+    } else {
+        picture[index] += pixel.sum;
+    }
+    if index < work.len() {
         if frame.first_sample == 0 {
-            picture[index] = color;
+            work[index] = pixel.work;
         } else {
-            picture[index] += color;
+            work[index] += pixel.work;
         }
     }
 }
+
+fn put(_: &Frame, index: usize, hit: Hit, hits: &mut [Hit]) {
+    hits[index] = hit;
+}
+
+pixels!(
+    "Adds this pass's samples to each pixel of `picture`, row by row from the upper left, and what they cost to `work`: \
+     of scenes with no more than one light and one plain material.",
+    "render_plain",
+    render_plain,
+    render_pixel::<Standard, false>,
+    { 0 picture: Vec4, 1 work: Vec4 } add
+);
+
+pixels!(
+    "Adds this pass's samples to each pixel of `picture`, row by row from the upper left, and what they cost to `work`: \
+     of any scene.",
+    "render",
+    render,
+    render_pixel::<Standard, true>,
+    { 0 picture: Vec4, 1 work: Vec4 } add
+);
+
+pixels!(
+    "Writes the nearest hit of the first sample of each pixel to `hits`, row by row from the upper left.",
+    "hits",
+    hits,
+    (|frame: &Frame, world: &World<'_>, pixel: UVec2| hit_pixel::<Standard>(frame, world, pixel)),
+    { 0 hits: Hit } put
+);

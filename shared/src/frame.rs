@@ -1,14 +1,16 @@
 //! What is to be rendered, apart from the scene.
 
 use crate::camera::Camera;
+use crate::environment::Environment;
+use crate::light::Light;
 use crate::octree::Root;
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-/// Bit of [`Frame::features`]: interpolate the vertex normals.
-pub const SMOOTH_NORMALS: u32 = 1;
-/// Bit of [`Frame::features`]: take the base colour from the vertices.
-pub const VERTEX_COLORS: u32 = 2;
+/// Bit of [`Frame::features`]: all triangles are flat, whatever their materials say.
+pub const FLAT: u32 = 1;
+/// Bit of [`Frame::features`]: some material transmits light, so shadow rays must look at what they hit.
+pub const TRANSPARENT: u32 = 2;
 
 /// One pass over a picture: the uniform buffer of the kernel.
 #[repr(C)]
@@ -18,30 +20,38 @@ pub struct Frame {
     pub camera: Camera,
     /// The octree's cube.
     pub root: Root,
-    /// Colour of rays that leave the scene, linear RGB.
-    pub background: Vec3,
-    /// Samples along each side of a pixel: 1, 2 or 4 for 1, 4 or 16 samples.
+    /// The first light; the scene has the others.
+    pub light: Light,
+    /// What rays see that leave the scene.
+    pub environment: Environment,
+    /// Ambient light, linear RGB: what every surface gets from everywhere.
+    pub ambient: Vec3,
+    /// [`FLAT`], [`TRANSPARENT`].
+    pub features: u32,
+    /// Samples of a pixel in all: 1, 4, 16 or 64.
+    pub samples: u32,
+    /// Where they lie: one of [`crate::sampling`].
+    pub pattern: u32,
+    /// How they are weighted: one of [`crate::sampling`].
+    pub filter: u32,
+    /// Samples of a pixel along each side, if they lie in a regular grid.
     pub samples_per_side: u32,
-    /// Place of the point light, scene units.
-    pub light: Vec3,
-    /// First sample of this pass, counted row by row in the pixel.
+    /// First sample of this pass.
     pub first_sample: u32,
-    /// Colour of the light, linear RGB; it does not fall off with the distance.
-    pub light_color: Vec3,
     /// Samples in this pass.
     pub sample_count: u32,
-    /// Colour of the surface where the mesh has none, linear RGB, 0 to 1.
-    pub base_color: Vec3,
-    /// [`SMOOTH_NORMALS`], [`VERTEX_COLORS`].
-    pub features: u32,
-    /// Part of the base colour that is seen without any light, 0 to 1.
-    pub ambient: f32,
-    /// Part of the base colour that reflects the light evenly, 0 to 1.
-    pub diffuse: f32,
-    /// Strength of the highlight, 0 to 1, in the colour of the light.
-    pub specular: f32,
-    /// Exponent of the highlight, 1 (wide) and up.
-    pub exponent: f32,
+    /// Lights beside the first.
+    pub light_count: u32,
+    /// Planes of the scene.
+    pub plane_count: u32,
+    /// How many times a ray may be reflected or refracted, at most [`crate::whitted::MAX_DEPTH`].
+    pub depth: u32,
+    /// Rays are not followed that could change no channel by more than this part of their light.
+    pub cutoff: f32,
+    /// Fills the row.
+    pub reserved_a: u32,
+    /// Fills the row.
+    pub reserved_b: u32,
 }
 
-const _: () = assert!(size_of::<Frame>() == 176);
+const _: () = assert!(size_of::<Frame>() == 288);

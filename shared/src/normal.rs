@@ -1,10 +1,8 @@
 //! Normals at a hit.
 
 use crate::arithmetic::max_component;
-use crate::buffer::load;
 use crate::hit::Hit;
-use crate::scene::Scene;
-use crate::triangle::Triangle;
+use crate::triangle::{Triangle, Vertex};
 use glam::Vec3;
 #[cfg(target_arch = "spirv")]
 use num_traits::Float;
@@ -25,16 +23,14 @@ pub fn face_normal(triangle: &Triangle) -> Vec3 {
 
 /// The normal interpolated between a triangle's corners ("Phong shading": B. T. Phong, "Illumination for computer
 /// generated pictures", CACM 18(6), 1975), of unit length; `otherwise` where the mesh has none there or the three cancel.
-pub fn interpolated_normal(scene: &Scene<'_>, triangle: &Triangle, hit: &Hit, otherwise: Vec3) -> Vec3 {
-    let a = load(scene.vertices, triangle.vertex_a).normal;
-    let b = load(scene.vertices, triangle.vertex_b).normal;
-    let c = load(scene.vertices, triangle.vertex_c).normal;
-    let normal = unit_or_zero(a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v);
+pub fn interpolated_normal(corners: &[Vertex; 3], hit: &Hit, otherwise: Vec3) -> Vec3 {
+    let normal =
+        unit_or_zero(corners[0].normal * (1.0 - hit.u - hit.v) + corners[1].normal * hit.u + corners[2].normal * hit.v);
     if normal == Vec3::ZERO { otherwise } else { normal }
 }
 
 /// A vector of the same direction and length 1; zero where the squared length is below 1e-20.
-fn unit_or_zero(v: Vec3) -> Vec3 {
+pub fn unit_or_zero(v: Vec3) -> Vec3 {
     let squared = v.dot(v);
     if squared > 1e-20 {
         v / squared.sqrt()

@@ -49,7 +49,7 @@ pub fn presented_color(present: &Present, picture: &[Vec4], overlay: &[u32], at:
     if x < present.overlay_width && y < present.overlay_height {
         let texel = load(overlay, y * present.overlay_width + x);
         let opacity = (texel >> 24) as f32 / 255.0;
-        let over = crate::shading::linear_color(texel);
+        let over = crate::color::linear_color(texel);
         (color + (over - color) * opacity).extend(1.0)
     } else {
         color.extend(1.0)

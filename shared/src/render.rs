@@ -3,39 +3,77 @@
 use crate::frame::Frame;
 use crate::hit::Hit;
 use crate::ray::Ray;
-use crate::scene::Scene;
+use crate::sampling::sample;
+use crate::scene::World;
 use crate::shading::shade;
+use crate::surface::Surface;
+use crate::trace::closest_hit;
 use crate::traversal::Traversal;
+use crate::whitted::{Traced, trace};
 use glam::{UVec2, Vec3, Vec4};
 
-/// The ray of a pixel's sample, on a regular grid in the pixel.
-pub fn sample_ray(frame: &Frame, pixel: UVec2, sample: u32) -> Ray {
-    let side = frame.samples_per_side;
-    let spacing = 1.0 / side as f32;
-    frame.camera.ray(
-        pixel.x as f32 + ((sample % side) as f32 + 0.5) * spacing,
-        pixel.y as f32 + ((sample / side) as f32 + 0.5) * spacing,
-    )
+/// The ray of a pixel's sample.
+pub fn sample_ray(frame: &Frame, pixel: UVec2, number: u32) -> Ray {
+    let place = sample(frame, number).place;
+    frame.camera.ray(pixel.x as f32 + place.x, pixel.y as f32 + place.y)
 }
 
-/// The sum of the colours, linear RGB, of this pass's samples of a pixel, and in `w` their number.
-pub fn render_pixel<V: Traversal>(frame: &Frame, scene: &Scene<'_>, pixel: UVec2) -> Vec4 {
-    let mut sum = Vec3::ZERO;
-    let mut sample = 0;
-    while sample < frame.sample_count {
-        let ray = sample_ray(frame, pixel, frame.first_sample + sample);
-        let hit = V::closest_hit(scene, &ray);
-        sum += if hit.is_hit() {
-            shade::<V>(frame, scene, &ray, &hit)
+/// What a pixel's samples came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pixel {
+    /// The weighted sum of the colours, linear RGB, of this pass's samples, and in `w` the sum of their weights.
+    pub sum: Vec4,
+    /// Closest-hit rays, shadow rays, and the weight that was cut (see [`Traced`]), summed over the samples; `w` is 0.
+    pub work: Vec4,
+}
+
+/// Renders this pass's samples of a pixel.
+///
+/// `FULL` renders everything. Without it, a scene that has no more than one opaque material without textures, one light
+/// that is no area, and no planes is rendered alike and faster; what else there is, is ignored.
+pub fn render_pixel<V: Traversal, const FULL: bool>(frame: &Frame, world: &World<'_>, pixel: UVec2) -> Pixel {
+    let mut result = Pixel {
+        sum: Vec4::ZERO,
+        work: Vec4::ZERO,
+    };
+    let mut number = 0;
+    while number < frame.sample_count {
+        let sample = sample(frame, frame.first_sample + number);
+        let ray = frame
+            .camera
+            .ray(pixel.x as f32 + sample.place.x, pixel.y as f32 + sample.place.y);
+        let traced = if FULL {
+            trace::<V>(frame, world, &ray)
         } else {
-            frame.background
+            first_surface::<V>(frame, world, &ray)
         };
-        sample += 1;
+        result.sum += (traced.color * sample.weight).extend(sample.weight);
+        result.work += Vec4::new(traced.rays as f32, traced.shadow_rays as f32, traced.cut, 0.0);
+        number += 1;
     }
-    sum.extend(frame.sample_count as f32)
+    result
+}
+
+/// The colour of the first surface that a ray meets.
+fn first_surface<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Traced {
+    let mut traced = Traced {
+        color: Vec3::ZERO,
+        rays: 1,
+        shadow_rays: 0,
+        cut: 0.0,
+    };
+    let hit = closest_hit::<V, false>(frame, world, ray);
+    traced.color = if hit.is_hit() {
+        let surface = Surface::new::<false>(frame, world, ray, &hit);
+        let view = -ray.direction.normalize();
+        shade::<V, false>(frame, world, &surface, view, &mut traced.shadow_rays)
+    } else {
+        frame.environment.gradient(ray.direction)
+    };
+    traced
 }
 
 /// What the first sample of this pass sees through a pixel.
-pub fn hit_pixel<V: Traversal>(frame: &Frame, scene: &Scene<'_>, pixel: UVec2) -> Hit {
-    V::closest_hit(scene, &sample_ray(frame, pixel, frame.first_sample))
+pub fn hit_pixel<V: Traversal>(frame: &Frame, world: &World<'_>, pixel: UVec2) -> Hit {
+    closest_hit::<V, true>(frame, world, &sample_ray(frame, pixel, frame.first_sample))
 }

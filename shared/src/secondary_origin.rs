@@ -12,18 +12,25 @@ const POINT_ERROR: f32 = 3.0 / (1 << 24) as f32;
 /// of the same triangle can amount to: six times 2^-24.
 const EXTENT_ERROR: f32 = 6.0 / (1 << 24) as f32;
 
-/// The origin of a ray that leaves `triangle` at `hit` on the side to which the unit face normal `side` points.
+/// The point of `triangle` at `hit`, and by how much a ray's origin must be moved along the unit face normal or against
+/// it, scene units.
 ///
 /// The point comes from the barycentric weights, not from `origin + t * direction`, whose error grows with the length of
-/// the ray; it is then moved along the normal by a bound of its rounding error, and no further, so that a ray does not
-/// meet the surface that it leaves. The method is that of NVIDIA's "Self-intersection avoidance" (2023). Deviation: the
-/// bound is derived here for points in the mesh's own coordinates, and counts the rounding of the last addition, without
-/// which the displacement itself can be rounded away.
-pub fn secondary_origin(triangle: &Triangle, hit: &Hit, side: Vec3) -> Vec3 {
+/// the ray; the distance is a bound of its rounding error, and no more, so that a ray does not meet the surface that it
+/// leaves. The method is that of NVIDIA's "Self-intersection avoidance" (2023). Deviation: the bound is derived here for
+/// points in the mesh's own coordinates, and counts the rounding of the last addition, without which the displacement
+/// itself can be rounded away.
+pub fn surface_point(triangle: &Triangle, hit: &Hit, normal: Vec3) -> (Vec3, f32) {
     let edge_ab = triangle.b - triangle.a;
     let edge_ac = triangle.c - triangle.a;
     let extent = max_component(edge_ab.abs() + edge_ac.abs() + (edge_ab - edge_ac).abs());
     let point = triangle.a + (edge_ab * hit.u + edge_ac * hit.v);
     let error = point.abs() * POINT_ERROR + Vec3::splat(extent * EXTENT_ERROR);
-    point + side * error.dot(side.abs())
+    (point, error.dot(normal.abs()))
+}
+
+/// The origin of a ray that leaves `triangle` at `hit` on the side to which the unit face normal `side` points.
+pub fn secondary_origin(triangle: &Triangle, hit: &Hit, side: Vec3) -> Vec3 {
+    let (point, clearance) = surface_point(triangle, hit, side);
+    point + side * clearance
 }

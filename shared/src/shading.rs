@@ -1,113 +1,90 @@
-//! The light that a surface sends to the eye.
+//! The light that a surface reflects in all directions.
 
 use crate::arithmetic::max;
 use crate::buffer::load;
-use crate::frame::{Frame, SMOOTH_NORMALS, VERTEX_COLORS};
-use crate::hit::Hit;
-use crate::normal::{face_normal, interpolated_normal};
-use crate::ray::Ray;
-use crate::scene::Scene;
-use crate::secondary_origin::secondary_origin;
+use crate::frame::Frame;
+use crate::light::Light;
+use crate::material::PHONG_HIGHLIGHTS;
+use crate::optics::reflected;
+use crate::scene::World;
+use crate::shadow::visibility;
+use crate::surface::Surface;
 use crate::traversal::Traversal;
-use crate::triangle::Triangle;
 use glam::Vec3;
 #[cfg(target_arch = "spirv")]
 use num_traits::Float;
 
-/// The colour, linear RGB, of the point where `ray` hit the scene: ambient, and where the light reaches it, diffuse
-/// (Lambert) and specular (J. F. Blinn, "Models of light reflection for computer synthesized pictures", SIGGRAPH 1977).
+/// The colour, linear RGB, in which a viewer in the unit direction `view` sees the surface: ambient, and of each light
+/// that reaches it diffuse (Lambert) and specular: Phong's (1975), or with the vector half-way between light and viewer
+/// (J. F. Blinn, "Models of light reflection for computer synthesized pictures", SIGGRAPH 1977). Adds the number of
+/// shadow rays to `shadow_rays`.
 ///
-/// Both sides of a triangle are lit alike: the normal is turned to the viewer. Which side that is, and whether the light
-/// stands on it, is decided by the face normal; the interpolated one only shades.
-pub fn shade<V: Traversal>(frame: &Frame, scene: &Scene<'_>, ray: &Ray, hit: &Hit) -> Vec3 {
-    let triangle = load(scene.triangles, hit.triangle);
-    let view = -ray.direction.normalize();
-    let side = towards(face_normal(&triangle), view);
-    let base = base_color(frame, scene, &triangle, hit);
-    let ambient = base * frame.ambient;
-
-    let origin = secondary_origin(&triangle, hit, side);
-    let to_light = frame.light - origin;
-    if side.dot(to_light) <= 0.0 {
-        return ambient;
+/// Both sides of a triangle are lit alike: the normal is turned to the viewer. With `FULL` false there is only the
+/// frame's light.
+pub fn shade<V: Traversal, const FULL: bool>(
+    frame: &Frame,
+    world: &World<'_>,
+    surface: &Surface,
+    view: Vec3,
+    shadow_rays: &mut u32,
+) -> Vec3 {
+    let mut color = surface.base * surface.material.ambient * frame.ambient;
+    let further = if FULL { frame.light_count } else { 0 };
+    let mut i = 0;
+    // One call for all lights: each would be a copy of the whole traversal in the kernel.
+    while i <= further {
+        let light = if i == 0 {
+            frame.light
+        } else {
+            load(world.appearance.lights, i - 1)
+        };
+        color += lit::<V, FULL>(frame, world, surface, view, &light, shadow_rays);
+        i += 1;
     }
-    let shadow = Ray {
-        origin,
-        t_min: 0.0,
-        direction: to_light,
-        t_max: 1.0,
-    };
-    if V::any_hit(scene, &shadow) {
-        return ambient;
-    }
-    let normal = if frame.features & SMOOTH_NORMALS != 0 {
-        towards(interpolated_normal(scene, &triangle, hit, side), side)
-    } else {
-        side
-    };
-    let light = to_light.normalize();
-    let diffuse = base * (frame.diffuse * max(normal.dot(light), 0.0));
-    // Longer than zero: both vectors are on the same side of the surface.
-    let half = (light + view).normalize();
-    let specular = frame.specular * max(normal.dot(half), 0.0).powf(frame.exponent);
-    ambient + (diffuse + Vec3::splat(specular)) * frame.light_color
+    color
 }
 
-/// The vector or its opposite, whichever is on the side of `reference`.
-fn towards(v: Vec3, reference: Vec3) -> Vec3 {
-    if v.dot(reference) < 0.0 { -v } else { v }
-}
-
-fn base_color(frame: &Frame, scene: &Scene<'_>, triangle: &Triangle, hit: &Hit) -> Vec3 {
-    if frame.features & VERTEX_COLORS != 0 {
-        let a = linear_color(load(scene.vertices, triangle.vertex_a).color);
-        let b = linear_color(load(scene.vertices, triangle.vertex_b).color);
-        let c = linear_color(load(scene.vertices, triangle.vertex_c).color);
-        a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v
-    } else {
-        frame.base_color
-    }
-}
-
-/// Linear RGB of a colour whose red, green and blue are the lowest three bytes, sRGB-encoded.
-pub fn linear_color(srgb: u32) -> Vec3 {
-    Vec3::new(
-        linear_from_srgb((srgb & 0xff) as f32 / 255.0),
-        linear_from_srgb((srgb >> 8 & 0xff) as f32 / 255.0),
-        linear_from_srgb((srgb >> 16 & 0xff) as f32 / 255.0),
-    )
-}
-
-/// The inverse of the sRGB transfer function (IEC 61966-2-1), 0 to 1.
-pub fn linear_from_srgb(encoded: f32) -> f32 {
-    if encoded <= 0.040_45 {
-        encoded / 12.92
-    } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
-    }
-}
-
-/// The sRGB transfer function (IEC 61966-2-1), 0 to 1.
-pub fn srgb_from_linear(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 {
-        linear * 12.92
-    } else {
-        1.055 * linear.powf(1.0 / 2.4) - 0.055
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn srgb_and_back() {
-        for i in 0..=255_u32 {
-            let linear = linear_color(i | i << 8 | i << 16);
-            assert_eq!(linear.x, linear.y);
-            assert_eq!(linear.x, linear.z);
-            let back = srgb_from_linear(linear.x) * 255.0;
-            assert!((back - i as f32).abs() < 1e-3, "{i} became {back}");
+fn lit<V: Traversal, const FULL: bool>(
+    frame: &Frame,
+    world: &World<'_>,
+    surface: &Surface,
+    view: Vec3,
+    light: &Light,
+    shadow_rays: &mut u32,
+) -> Vec3 {
+    let material = &surface.material;
+    let origin = surface.shadow_point + surface.side * surface.clearance;
+    let is_lifted = surface.shadow_point != surface.point;
+    let count = if FULL { light.sample_count() } else { 1 };
+    let mut color = Vec3::ZERO;
+    let mut sample = 0;
+    while sample < count {
+        let incident = light.incident(sample, origin);
+        sample += 1;
+        let direction = incident.direction.normalize();
+        let cosine = surface.normal.dot(direction);
+        // A light below the triangle still grazes the rounder surface that a lifted point is on.
+        let above = surface.side.dot(direction) > 0.0 || is_lifted;
+        if !(cosine > 0.0 && above && incident.color != Vec3::ZERO) {
+            continue;
         }
+        *shadow_rays += 1;
+        let part = visibility::<V, FULL>(frame, world, origin, &incident);
+        if part == Vec3::ZERO {
+            continue;
+        }
+        let highlight = if material.exponent > 0.0 {
+            let cosine = if material.flags & PHONG_HIGHLIGHTS != 0 {
+                reflected(-view, surface.normal).dot(direction)
+            } else {
+                surface.normal.dot((direction + view).normalize())
+            };
+            max(cosine, 0.0).powf(material.exponent)
+        } else {
+            0.0
+        };
+        let reflected = surface.base * (material.diffuse * cosine) + material.specular * highlight;
+        color += reflected * incident.color * part;
     }
+    color
 }

@@ -1,0 +1,119 @@
+//! What a ray is inside of.
+
+use crate::buffer::load;
+use crate::material::Material;
+
+/// How many media can enclose a point at a time. Where more do, the last one entered takes the place of the one before.
+pub const MAX_NESTED: u32 = 4;
+
+/// The media around a point, as indices of materials: nested dielectrics with priorities (C. M. Schmidt, B. Budge,
+/// "Simple nested dielectrics in ray traced images", Journal of Graphics Tools 7(2), 2002).
+///
+/// Nothing is toggled: crossing a surface against its normal enters its medium, crossing it along the normal leaves it,
+/// and leaving what was never entered changes nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Media {
+    /// Index of the material plus 1, or 0 where the place is free; the used places come first.
+    inside: [u32; MAX_NESTED as usize],
+}
+
+impl Media {
+    /// In the air.
+    pub const AIR: Media = Media {
+        inside: [0; MAX_NESTED as usize],
+    };
+
+    /// The material that fills the point, of those around it the one with the highest priority (of equal ones the last
+    /// entered), as its index plus 1; 0 in the air.
+    pub fn current(&self, materials: &[Material]) -> u32 {
+        let mut current = 0;
+        let mut priority = 0;
+        let mut i = 0;
+        while i < MAX_NESTED as usize {
+            let inside = self.inside[i];
+            if inside != 0 {
+                let own = load(materials, inside - 1).priority;
+                if current == 0 || own >= priority {
+                    current = inside;
+                    priority = own;
+                }
+            }
+            i += 1;
+        }
+        current
+    }
+
+    /// After entering a material.
+    pub fn entered(mut self, material: u32) -> Self {
+        let mut place = 0;
+        while place < MAX_NESTED as usize - 1 && self.inside[place] != 0 {
+            place += 1;
+        }
+        self.inside[place] = material + 1;
+        self
+    }
+
+    /// After leaving a material: the one entered last of its kind is gone.
+    pub fn left(mut self, material: u32) -> Self {
+        let mut gone = MAX_NESTED as usize;
+        let mut i = 0;
+        while i < MAX_NESTED as usize {
+            if self.inside[i] == material + 1 {
+                gone = i;
+            }
+            i += 1;
+        }
+        while gone < MAX_NESTED as usize {
+            self.inside[gone] = if gone + 1 < MAX_NESTED as usize {
+                self.inside[gone + 1]
+            } else {
+                0
+            };
+            gone += 1;
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bytemuck::Zeroable;
+
+    fn materials() -> [Material; 3] {
+        core::array::from_fn(|i| Material {
+            priority: [1, 3, 2][i],
+            ..Material::zeroed()
+        })
+    }
+
+    #[test]
+    fn the_highest_priority_fills_the_point() {
+        let materials = materials();
+        let media = Media::AIR;
+        assert_eq!(media.current(&materials), 0);
+        let media = media.entered(0);
+        assert_eq!(media.current(&materials), 1);
+        let media = media.entered(1).entered(2);
+        assert_eq!(media.current(&materials), 2);
+        let media = media.left(1);
+        assert_eq!(media.current(&materials), 3);
+        assert_eq!(media.left(2).current(&materials), 1);
+        assert_eq!(media.left(2).left(0), Media::AIR);
+    }
+
+    #[test]
+    fn leaving_what_was_not_entered_changes_nothing() {
+        let media = Media::AIR.entered(2);
+        assert_eq!(media.left(1), media);
+        assert_eq!(Media::AIR.left(0), Media::AIR);
+    }
+
+    #[test]
+    fn too_many_media_replace_the_last() {
+        let materials = materials();
+        let media = Media::AIR.entered(0).entered(0).entered(0).entered(0).entered(1);
+        assert_eq!(media.current(&materials), 2);
+        assert_eq!(media.left(1).current(&materials), 1);
+    }
+}

@@ -1,0 +1,47 @@
+//! A ray against all that there is: triangles and planes.
+
+use crate::buffer::load;
+use crate::frame::Frame;
+use crate::hit::Hit;
+use crate::plane::PLANE;
+use crate::ray::Ray;
+use crate::scene::World;
+use crate::traversal::Traversal;
+
+/// The nearest hit; of equal ones, a triangle comes before a plane. With `FULL` false there are no planes.
+#[inline]
+pub fn closest_hit<V: Traversal, const FULL: bool>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Hit {
+    let mut hit = V::closest_hit(&world.scene, ray);
+    if FULL {
+        let mut i = 0;
+        while i < frame.plane_count {
+            let t = load(world.appearance.planes, i).crossing(ray);
+            if t >= 0.0 && t >= ray.t_min && t <= ray.t_max && t < hit.t {
+                hit = Hit {
+                    t,
+                    triangle: PLANE | i,
+                    u: 0.0,
+                    v: 0.0,
+                };
+            }
+            i += 1;
+        }
+    }
+    hit
+}
+
+/// Whether there is a hit. With `FULL` false there are no planes.
+#[inline]
+pub fn any_hit<V: Traversal, const FULL: bool>(frame: &Frame, world: &World<'_>, ray: &Ray) -> bool {
+    if FULL {
+        let mut i = 0;
+        while i < frame.plane_count {
+            let t = load(world.appearance.planes, i).crossing(ray);
+            if t >= 0.0 && t >= ray.t_min && t <= ray.t_max {
+                return true;
+            }
+            i += 1;
+        }
+    }
+    V::any_hit(&world.scene, ray)
+}
