@@ -3,9 +3,9 @@
 mod arguments;
 mod engine;
 mod info;
-mod mesh_source;
 mod progress_bar;
 mod render;
+mod scene_source;
 mod view;
 
 use arguments::{Arguments, Command, ViewArguments};

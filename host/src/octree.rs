@@ -10,6 +10,7 @@ pub use root::{LARGEST_EXTENT, SMALLEST_EXTENT};
 
 use crate::mesh::Mesh;
 use crate::progress::Progress;
+use glam::Vec3;
 use oktant_shared::octree::{MAX_DEPTH, Node, Root};
 
 /// An octree over the triangles of a mesh, as flat arrays.
@@ -74,6 +75,17 @@ impl Octree {
     /// [`OctreeError`] where the mesh has nothing to build it from.
     pub fn build(mesh: &Mesh, options: &OctreeOptions, progress: Progress<'_>) -> Result<Self, OctreeError> {
         build::build(mesh, options, progress)
+    }
+
+    /// An octree without triangles.
+    pub fn empty() -> Self {
+        Octree {
+            root: root::root(Vec3::splat(-1.0), Vec3::ONE, 0).expect("a cube of two units has a root"),
+            nodes: vec![Node { first: 0, count: 0 }],
+            references: Vec::new(),
+            degenerate: 0,
+            duplicates: 0,
+        }
     }
 
     /// Checks everything that the traversal relies on without looking: indices in range, every cell reached once,

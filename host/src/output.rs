@@ -115,11 +115,7 @@ mod tests {
     use glam::vec4;
 
     fn picture() -> Picture {
-        Picture {
-            width: 2,
-            height: 1,
-            sums: vec![vec4(1.0, 0.0, 0.0, 2.0), vec4(0.0, 4.0, 0.0, 1.0)],
-        }
+        Picture::of_sums(2, 1, vec![vec4(1.0, 0.0, 0.0, 2.0), vec4(0.0, 4.0, 0.0, 1.0)])
     }
 
     #[test]

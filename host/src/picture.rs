@@ -1,8 +1,8 @@
 //! A rendered picture.
 
 use glam::Vec4;
+use oktant_shared::color::srgb_from_linear;
 use oktant_shared::present::mean_color;
-use oktant_shared::shading::srgb_from_linear;
 use rayon::prelude::*;
 
 /// Sums of samples, row by row from the upper left.
@@ -12,8 +12,11 @@ pub struct Picture {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// For each pixel the sum of its samples' linear RGB, and their number; 0 samples where nothing was written.
+    /// For each pixel the weighted sum of its samples' linear RGB, and the sum of the weights; 0 where nothing was
+    /// written.
     pub sums: Vec<Vec4>,
+    /// For each pixel the closest-hit rays, the shadow rays and the weight that was cut, summed over its samples.
+    pub work: Vec<Vec4>,
 }
 
 impl Picture {
@@ -23,6 +26,17 @@ impl Picture {
             width,
             height,
             sums: vec![Vec4::ZERO; width as usize * height as usize],
+            work: vec![Vec4::ZERO; width as usize * height as usize],
+        }
+    }
+
+    /// The picture with its colours only, nothing counted.
+    pub fn of_sums(width: u32, height: u32, sums: Vec<Vec4>) -> Self {
+        Picture {
+            work: vec![Vec4::ZERO; sums.len()],
+            width,
+            height,
+            sums,
         }
     }
 

@@ -1,15 +1,24 @@
-//! A mesh with its octree, in the arrays that the kernel reads.
+//! A model with its octree, in the arrays that the kernel reads.
 
 use crate::mesh::Mesh;
+use crate::model::{Focus, Model, white_light};
 use crate::octree::{InvalidOctree, Octree, OctreeError, OctreeOptions};
 use crate::progress::Progress;
-use glam::Vec3;
-use oktant_shared::frame::{SMOOTH_NORMALS, VERTEX_COLORS};
+use bytemuck::Zeroable;
+use glam::{Vec2, Vec3};
+use oktant_shared::environment::Environment;
+use oktant_shared::light::{AREA, Light};
+use oktant_shared::material::Material;
 use oktant_shared::octree::{Node, Root};
+use oktant_shared::plane::Plane;
+use oktant_shared::scene::{Appearance, World};
+use oktant_shared::texture::{NO_TEXTURE, Texture};
 use oktant_shared::triangle::{Triangle, Vertex};
 use rayon::prelude::*;
 
 /// Everything that rays meet, ready for a back end.
+///
+/// Arrays that nothing refers to hold one element that nobody reads, because a GPU allows no empty buffers.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The octree's cube.
@@ -22,8 +31,32 @@ pub struct Scene {
     pub triangles: Vec<Triangle>,
     /// Normals and colours by vertex; a single one where the mesh has neither.
     pub vertices: Vec<Vertex>,
-    /// Which of [`SMOOTH_NORMALS`] and [`VERTEX_COLORS`] the vertices can serve.
-    pub features: u32,
+    /// Texture coordinates by vertex; a single one where the mesh has none.
+    pub coordinates: Vec<Vec2>,
+    /// Index of the material by triangle.
+    pub material_ids: Vec<u32>,
+    /// The materials.
+    pub materials: Vec<Material>,
+    /// The light that a view moves; black where the model has none.
+    pub light: Light,
+    /// The others.
+    pub lights: Vec<Light>,
+    /// How many of those there are.
+    pub light_count: u32,
+    /// Planes without end.
+    pub planes: Vec<Plane>,
+    /// How many of those there are.
+    pub plane_count: u32,
+    /// What materials and the environment refer to.
+    pub textures: Vec<Texture>,
+    /// The texels of all images.
+    pub texels: Vec<u32>,
+    /// What surrounds everything.
+    pub environment: Environment,
+    /// Ambient light, linear RGB.
+    pub ambient: Vec3,
+    /// What is looked at.
+    pub focus: Focus,
     /// Triangles left out of the octree because they have no area.
     pub degenerate: u32,
     /// Triangles left out of the octree because they lie exactly on one with a lower id.
@@ -34,7 +67,7 @@ pub struct Scene {
     pub high: Vec3,
 }
 
-/// Why a mesh cannot become a scene.
+/// Why a model cannot become a scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SceneError {
     /// There is nothing to build from.
@@ -46,62 +79,104 @@ pub enum SceneError {
 }
 
 impl Scene {
-    /// Builds the octree of a mesh and lays out its arrays.
+    /// A scene of a mesh alone, see [`Model::of_mesh`].
     ///
     /// # Errors
     /// [`SceneError::Octree`] where the mesh has no triangle with an area.
     pub fn new(mesh: &Mesh, options: &OctreeOptions, progress: Progress<'_>) -> Result<Self, SceneError> {
-        let octree = Octree::build(mesh, options, progress)?;
-        octree.validate(mesh.triangles.len())?;
-        Ok(Self::from_parts(mesh, octree))
+        Self::of_model(Model::of_mesh(mesh.clone()), options, progress)
     }
 
-    /// Lays out the arrays of a mesh and its octree.
-    pub fn from_parts(mesh: &Mesh, octree: Octree) -> Self {
+    /// Builds the octree of a model's triangles and lays out its arrays.
+    ///
+    /// # Errors
+    /// [`SceneError::Octree`] where there is neither a triangle with an area nor a plane; [`SceneError::Invalid`] where
+    /// an index in the model is out of range.
+    pub fn of_model(model: Model, options: &OctreeOptions, progress: Progress<'_>) -> Result<Self, SceneError> {
+        check_indices(&model)?;
+        let octree = match Octree::build(&model.mesh, options, progress) {
+            Err(OctreeError::NoArea) if !model.planes.is_empty() => Octree::empty(),
+            built => built?,
+        };
+        octree.validate(model.mesh.triangles.len())?;
+        Ok(Self::from_parts(model, octree))
+    }
+
+    /// Lays out the arrays of a model and its octree.
+    fn from_parts(model: Model, octree: Octree) -> Self {
+        let mesh = &model.mesh;
         let has_normals = !mesh.normals.is_empty();
         let has_colors = !mesh.colors.is_empty();
-        // A vertex that nobody reads keeps the buffer from being empty, which a GPU does not allow.
-        let attributes = if has_normals || has_colors {
-            mesh.positions.len()
+        let vertices = if has_normals || has_colors {
+            (0..mesh.positions.len())
+                .into_par_iter()
+                .map(|i| Vertex {
+                    normal: if has_normals { mesh.normals[i] } else { Vec3::ZERO },
+                    color: if has_colors {
+                        u32::from_le_bytes(mesh.colors[i])
+                    } else {
+                        u32::MAX
+                    },
+                })
+                .collect()
         } else {
-            1
+            // Materials that ask for either are given neither.
+            Vec::new()
         };
-        let vertices = (0..attributes)
-            .into_par_iter()
-            .map(|i| Vertex {
-                normal: if has_normals { mesh.normals[i] } else { Vec3::ZERO },
-                color: if has_colors {
-                    u32::from_le_bytes(mesh.colors[i])
-                } else {
-                    u32::MAX
-                },
-            })
-            .collect();
-        let (low, high) = mesh
+        let triangles: Vec<Triangle> = mesh
             .triangles
             .par_iter()
-            .flat_map_iter(|triangle| triangle.map(|i| mesh.positions[i as usize]))
-            .map(|position| (position, position))
-            .reduce_with(|a, b| (a.0.min(b.0), a.1.max(b.1)))
-            .unwrap_or_default();
+            .map(|&[a, b, c]| Triangle {
+                a: mesh.positions[a as usize],
+                vertex_a: a,
+                b: mesh.positions[b as usize],
+                vertex_b: b,
+                c: mesh.positions[c as usize],
+                vertex_c: c,
+            })
+            .collect();
+        let bounds = mesh.bounds();
+        let (low, high) = bounds.unwrap_or_default();
+        let focus = model.focus.unwrap_or(Focus {
+            center: (low + high) / 2.0,
+            radius: bounds.map_or(1.0, |(low, high)| (high - low).length() / 2.0),
+        });
+        let mut materials = model.materials;
+        if vertices.is_empty() {
+            for material in &mut materials {
+                material.flags &= !(oktant_shared::material::SMOOTH_NORMALS | oktant_shared::material::VERTEX_COLORS);
+            }
+        }
+        let material_ids = if model.material_ids.is_empty() && materials.len() > 1 {
+            vec![0; triangles.len()]
+        } else {
+            model.material_ids
+        };
+        let mut lights = model.lights.into_iter();
+        let light = lights.next().unwrap_or(Light {
+            color: Vec3::ZERO,
+            ..white_light()
+        });
+        let lights: Vec<_> = lights.collect();
         Scene {
             root: octree.root,
             nodes: octree.nodes,
-            references: octree.references,
-            triangles: mesh
-                .triangles
-                .par_iter()
-                .map(|&[a, b, c]| Triangle {
-                    a: mesh.positions[a as usize],
-                    vertex_a: a,
-                    b: mesh.positions[b as usize],
-                    vertex_b: b,
-                    c: mesh.positions[c as usize],
-                    vertex_c: c,
-                })
-                .collect(),
-            vertices,
-            features: if has_normals { SMOOTH_NORMALS } else { 0 } | if has_colors { VERTEX_COLORS } else { 0 },
+            references: never_empty(octree.references),
+            triangles: never_empty(triangles),
+            vertices: never_empty(vertices),
+            coordinates: never_empty(model.mesh.coordinates),
+            material_ids: never_empty(material_ids),
+            materials,
+            light,
+            light_count: lights.len() as u32,
+            lights: never_empty(lights),
+            plane_count: model.planes.len() as u32,
+            planes: never_empty(model.planes),
+            textures: never_empty(model.textures),
+            texels: never_empty(model.texels),
+            environment: model.environment,
+            ambient: model.ambient,
+            focus,
             degenerate: octree.degenerate,
             duplicates: octree.duplicates,
             low,
@@ -109,15 +184,51 @@ impl Scene {
         }
     }
 
-    /// The arrays as the shared code takes them.
+    /// What a traversal reads.
     pub fn view(&self) -> oktant_shared::scene::Scene<'_> {
         oktant_shared::scene::Scene {
             root: self.root,
             nodes: &self.nodes,
             references: &self.references,
             triangles: &self.triangles,
-            vertices: &self.vertices,
         }
+    }
+
+    /// The arrays as the shared code takes them.
+    pub fn world(&self) -> World<'_> {
+        World {
+            scene: self.view(),
+            appearance: Appearance {
+                vertices: &self.vertices,
+                coordinates: &self.coordinates,
+                material_ids: &self.material_ids,
+                materials: &self.materials,
+                lights: &self.lights,
+                planes: &self.planes,
+                textures: &self.textures,
+                texels: &self.texels,
+            },
+        }
+    }
+
+    /// Whether some material lets light through.
+    pub fn is_transparent(&self) -> bool {
+        self.materials.iter().any(Material::is_transmissive)
+    }
+
+    /// Whether the kernel's variant for scenes that need little renders this one: no more than one opaque material
+    /// without mirror and textures, one light that is no area, no plane, no image around.
+    pub fn is_plain(&self) -> bool {
+        let material = &self.materials[0];
+        self.materials.len() == 1
+            && !material.is_transmissive()
+            && material.mirror == Vec3::ZERO
+            && material.texture == NO_TEXTURE
+            && material.bump == NO_TEXTURE
+            && self.light_count == 0
+            && self.light.kind != AREA
+            && self.plane_count == 0
+            && self.environment.texture == NO_TEXTURE
     }
 
     /// Centre of the bounding box, scene units.
@@ -136,5 +247,75 @@ impl Scene {
             + size_of_val(self.references.as_slice())
             + size_of_val(self.triangles.as_slice())
             + size_of_val(self.vertices.as_slice())
+            + size_of_val(self.coordinates.as_slice())
+            + size_of_val(self.material_ids.as_slice())
+            + size_of_val(self.materials.as_slice())
+            + size_of_val(self.lights.as_slice())
+            + size_of_val(self.planes.as_slice())
+            + size_of_val(self.textures.as_slice())
+            + size_of_val(self.texels.as_slice())
     }
+}
+
+fn never_empty<T: Zeroable>(mut elements: Vec<T>) -> Vec<T> {
+    if elements.is_empty() {
+        elements.push(T::zeroed());
+    }
+    elements
+}
+
+/// Makes sure of the indices that the kernel trusts.
+fn check_indices(model: &Model) -> Result<(), InvalidOctree> {
+    let invalid = |rule: String| Err(InvalidOctree(rule));
+    let mesh = &model.mesh;
+    let vertices = mesh.positions.len();
+    for (what, length) in [
+        ("normals", mesh.normals.len()),
+        ("colours", mesh.colors.len()),
+        ("texture coordinates", mesh.coordinates.len()),
+    ] {
+        if length != 0 && length != vertices {
+            return invalid(format!("there are {length} {what} for {vertices} vertices"));
+        }
+    }
+    if !model.material_ids.is_empty() && model.material_ids.len() != mesh.triangles.len() {
+        return invalid("not every triangle has a material".into());
+    }
+    let materials = model.materials.len() as u32;
+    let ids = model.material_ids.iter().copied();
+    if let Some(id) = ids
+        .chain(model.planes.iter().map(|plane| plane.material))
+        .find(|id| *id >= materials)
+    {
+        return invalid(format!("there is no material {id}"));
+    }
+    let textures = model.textures.len() as u32;
+    let used = model
+        .materials
+        .iter()
+        .flat_map(|material| [material.texture, material.bump]);
+    for id in used.chain([model.environment.texture]) {
+        if id != NO_TEXTURE && id >= textures {
+            return invalid(format!("there is no texture {id}"));
+        }
+    }
+    let needs_coordinates = |material: &Material| material.texture != NO_TEXTURE || material.bump != NO_TEXTURE;
+    let on_triangles = if model.material_ids.is_empty() {
+        needs_coordinates(&model.materials[0])
+    } else {
+        model
+            .material_ids
+            .iter()
+            .any(|id| needs_coordinates(&model.materials[*id as usize]))
+    };
+    if on_triangles && mesh.coordinates.is_empty() && !mesh.triangles.is_empty() {
+        return invalid("a texture lies on triangles without coordinates".into());
+    }
+    for texture in model.textures.iter().filter(|texture| texture.is_image()) {
+        let texels = u64::from(texture.first) + u64::from(texture.width) * u64::from(texture.height);
+        if texture.width == 0 || texture.height == 0 || texels > model.texels.len() as u64 {
+            return invalid("an image has too few texels".into());
+        }
+    }
+    Ok(())
 }

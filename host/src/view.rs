@@ -1,13 +1,21 @@
 //! What the user sets about a picture, and the frame that follows from it.
 
+use crate::sampling::{Filter, Pattern, Samples};
 use crate::scene::Scene;
+use crate::stereo::Stereo;
+use crate::tone::Tone;
+use clap::ValueEnum;
 use glam::Vec3;
 use oktant_shared::camera::Camera;
-use oktant_shared::frame::{Frame, SMOOTH_NORMALS};
+use oktant_shared::frame::{FLAT, Frame, TRANSPARENT};
+use oktant_shared::light::{AREA, DIRECTIONAL, Light};
 use oktant_shared::orbit::{Orbit, Up};
+use oktant_shared::stereo::MONO;
+use serde::Deserialize;
 
 /// How surfaces get their normals.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Shading {
     /// Each triangle is flat.
     Flat,
@@ -16,56 +24,42 @@ pub enum Shading {
     Phong,
 }
 
-/// Samples of a pixel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Samples {
-    /// One, in the middle.
-    #[default]
-    One,
-    /// Two by two.
-    Four,
-    /// Four by four.
-    Sixteen,
-}
-
-impl Samples {
-    /// All of them, fewest first.
-    pub const ALL: [Samples; 3] = [Samples::One, Samples::Four, Samples::Sixteen];
-
-    /// Along each side of a pixel.
-    pub fn per_side(self) -> u32 {
-        match self {
-            Samples::One => 1,
-            Samples::Four => 2,
-            Samples::Sixteen => 4,
-        }
-    }
-
-    /// In all.
-    pub fn count(self) -> u32 {
-        self.per_side() * self.per_side()
-    }
-}
-
-/// A point on a sphere around the mesh, as people say it.
+/// A point on a sphere around the focus, as people say it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// Degrees about the up axis, counterclockwise seen from above; 0 is in front.
     pub azimuth: f32,
     /// Degrees above the horizon, -90 to 90.
     pub elevation: f32,
-    /// From the mesh's centre, in radii of its bounding sphere.
+    /// From the centre of the focus, in its radii.
     pub distance: f32,
 }
 
-/// Everything about a picture but the mesh.
+impl Place {
+    /// The place at an offset from the centre of a focus with that radius.
+    pub fn at(offset: Vec3, radius: f32, up: Up) -> Self {
+        let [right, above, front] = up.axes().map(|axis| axis.dot(offset));
+        let level = right.hypot(front);
+        Place {
+            azimuth: if level == 0.0 {
+                0.0
+            } else {
+                right.atan2(front).to_degrees()
+            },
+            elevation: above.atan2(level).to_degrees(),
+            distance: offset.length() / radius,
+        }
+    }
+}
+
+/// Everything about a picture but the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     /// Where the camera is.
     pub camera: Place,
-    /// Where the light is.
+    /// Where the first light is: a directional one shines from there, the middle of an area light lies there.
     pub light: Place,
-    /// What the camera looks at, and circles, as an offset from the mesh's centre in radii of its bounding sphere.
+    /// What the camera looks at, and circles, as an offset from the centre of the focus in its radii.
     pub target: Vec3,
     /// Vertical field of view, degrees.
     pub field_of_view: f32,
@@ -75,6 +69,18 @@ pub struct View {
     pub shading: Shading,
     /// Samples of a pixel.
     pub samples: Samples,
+    /// Where they lie.
+    pub pattern: Pattern,
+    /// How much each counts.
+    pub filter: Filter,
+    /// How many times a ray may be reflected or refracted, at most [`oktant_shared::whitted::MAX_DEPTH`].
+    pub depth: u32,
+    /// Rays are not followed that could change no channel by more than this part of their light.
+    pub cutoff: f32,
+    /// Whether, and how, there are two eyes.
+    pub stereo: Option<Stereo>,
+    /// How the light is made to fit the screen.
+    pub tone: Tone,
 }
 
 impl Default for View {
@@ -95,45 +101,94 @@ impl Default for View {
             up: Up::Y,
             shading: Shading::Phong,
             samples: Samples::One,
+            pattern: Pattern::Regular,
+            filter: Filter::Box,
+            depth: 5,
+            cutoff: 1.0 / 512.0,
+            stereo: None,
+            tone: Tone::default(),
         }
     }
 }
 
 impl View {
-    /// The frame that takes all samples of a picture of `width` times `height` pixels in one pass.
+    /// The frame that takes all samples of a picture of `width` times `height` pixels in one pass. The picture may be
+    /// larger: see [`Frame::size`].
     pub fn frame(&self, scene: &Scene, width: u32, height: u32) -> Frame {
-        let radius = scene.radius();
+        let [width, height] = self
+            .stereo
+            .map_or([width, height], |stereo| stereo.eye_size([width, height]));
+        let focus = scene.focus;
         let orbit = |place: &Place, center: Vec3| Orbit {
             center,
-            radius: place.distance * radius,
+            radius: place.distance * focus.radius,
             azimuth: place.azimuth,
             elevation: place.elevation,
             up: self.up,
         };
-        let smooth = match self.shading {
-            Shading::Flat => 0,
-            Shading::Phong => SMOOTH_NORMALS,
-        };
+        let target = focus.center + self.target * focus.radius;
+        let mut camera = Camera::on_orbit(&orbit(&self.camera, target), self.field_of_view, width, height);
+        if let Some(stereo) = self.stereo {
+            stereo.part_eyes(&mut camera);
+        }
+        let is_flat = self.shading == Shading::Flat;
         Frame {
-            camera: Camera::on_orbit(
-                &orbit(&self.camera, scene.center() + self.target * radius),
-                self.field_of_view,
-                width,
-                height,
-            ),
+            camera,
             root: scene.root,
-            background: Vec3::new(0.045, 0.06, 0.085),
+            light: placed(&scene.light, &orbit(&self.light, focus.center)),
+            environment: scene.environment,
+            ambient: scene.ambient,
+            features: if is_flat { FLAT } else { 0 } | if scene.is_transparent() { TRANSPARENT } else { 0 },
+            samples: self.samples.count(),
+            pattern: self.pattern.code(),
+            filter: self.filter.code(),
             samples_per_side: self.samples.per_side(),
-            light: orbit(&self.light, scene.center()).position(),
             first_sample: 0,
-            light_color: Vec3::ONE,
             sample_count: self.samples.count(),
-            base_color: Vec3::new(0.62, 0.58, 0.53),
-            features: scene.features & (smooth | !SMOOTH_NORMALS),
-            ambient: 0.12,
-            diffuse: 0.85,
-            specular: 0.22,
-            exponent: 40.0,
+            light_count: scene.light_count,
+            plane_count: scene.plane_count,
+            depth: self.depth,
+            cutoff: self.cutoff,
+            stereo: self.stereo.map_or(MONO, |stereo| stereo.code()),
+            reserved: 0,
+        }
+    }
+}
+
+/// The light, moved to the orbit's place.
+fn placed(light: &Light, orbit: &Orbit) -> Light {
+    let position = match light.kind {
+        DIRECTIONAL => orbit.direction(),
+        AREA => orbit.position() - (light.edge_u + light.edge_v) / 2.0,
+        _ => orbit.position(),
+    };
+    Light { position, ..*light }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::vec3;
+
+    #[test]
+    fn places_are_found_again() {
+        for up in [Up::Y, Up::Z] {
+            for offset in [
+                vec3(1.0, 2.0, 3.0),
+                vec3(-4.0, 0.1, -0.2),
+                vec3(0.0, -3.0, 0.0),
+                vec3(0.0, 0.0, 2.0),
+            ] {
+                let place = Place::at(offset, 2.5, up);
+                let orbit = Orbit {
+                    center: Vec3::ZERO,
+                    radius: place.distance * 2.5,
+                    azimuth: place.azimuth,
+                    elevation: place.elevation,
+                    up,
+                };
+                assert!(orbit.position().distance(offset) < 1e-5, "{offset} is at {place:?}");
+            }
         }
     }
 }

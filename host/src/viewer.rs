@@ -36,14 +36,14 @@ mod task;
 mod translation;
 mod work;
 
-pub use notice::MeshError;
+pub use notice::LoadError;
 pub use screen::ScreenError;
 pub use script::ScriptError;
 
 use crate::backend::gpu::ModulePath;
 use crate::backend::{BackendChoice, BackendError};
-use crate::mesh_source::MeshSource;
 use crate::octree::OctreeOptions;
+use crate::source::Source;
 use crate::view::View;
 use application::Application;
 use notice::{Mailbox, Notice};
@@ -57,8 +57,8 @@ use winit::event_loop::EventLoop;
 /// What the window opens with.
 #[derive(Clone, Debug)]
 pub struct ViewerOptions {
-    /// The mesh.
-    pub source: MeshSource,
+    /// What to look at.
+    pub source: Source,
     /// Limits of its octree.
     pub octree: OctreeOptions,
     /// From where it is seen, and how.
@@ -87,9 +87,9 @@ pub enum ViewerError {
     /// The window cannot be drawn.
     #[error(transparent)]
     Screen(#[from] ScreenError),
-    /// The mesh to begin with cannot be had.
+    /// There is nothing to look at.
     #[error(transparent)]
-    Mesh(#[from] MeshError),
+    Load(#[from] LoadError),
     /// The GPU was asked for and cannot be had.
     #[error(transparent)]
     Backend(#[from] BackendError),

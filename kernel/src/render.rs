@@ -40,7 +40,8 @@ macro_rules! pixels {
             #[spirv(storage_buffer, descriptor_set = 3, binding = 7)] texels: &[u32],
         ) {
             let pixel = id.xy();
-            if pixel.x < frame.camera.width && pixel.y < frame.camera.height {
+            let size = frame.size();
+            if pixel.x < size.x && pixel.y < size.y {
                 let world = World {
                     scene: Scene {
                         root: frame.root,
@@ -59,7 +60,7 @@ macro_rules! pixels {
                         texels,
                     },
                 };
-                let index = (pixel.y * frame.camera.width + pixel.x) as usize;
+                let index = (pixel.y * size.x + pixel.x) as usize;
                 $store(frame, index, $of(frame, &world, pixel), $($output),+);
             }
         }

@@ -21,12 +21,12 @@ pub struct Camera {
     pub height: u32,
     /// From the centre of the picture to the middle of its upper edge, at distance 1 from the eye.
     pub up: Vec3,
-    /// Fills the row.
-    pub reserved_a: u32,
+    /// From the middle between the eyes to each of them, scene units; 0 for one eye.
+    pub eye_shift: f32,
     /// Unit vector from the eye to the centre of the picture.
     pub forward: Vec3,
-    /// Fills the row.
-    pub reserved_b: u32,
+    /// Depth at which the eyes' pictures coincide, scene units.
+    pub convergence: f32,
 }
 
 const _: () = assert!(size_of::<Camera>() == 64);
@@ -44,18 +44,30 @@ impl Camera {
             right: right * half_width,
             height,
             up: up * half_height,
-            reserved_a: 0,
+            eye_shift: 0.0,
             forward: -orbit.direction(),
-            reserved_b: 0,
+            convergence: orbit.radius,
         }
     }
 
-    /// The ray through a point of the picture, in pixels from its upper left corner. Its direction has the length 1
-    /// along the line of sight, so that `t` is the depth.
-    pub fn ray(&self, x: f32, y: f32) -> Ray {
+    /// The ray through a point of the picture, in pixels from its upper left corner, from the left eye (-1), the right
+    /// one (1) or the middle between them (0). Its direction has the length 1 along the line of sight, so that `t` is
+    /// the depth.
+    ///
+    /// Both eyes look straight ahead, and their pictures are shifted rather than the eyes turned, so that no point is
+    /// higher in one picture than in the other (L. F. Hodges, "Time-multiplexed stereoscopic computer graphics", IEEE
+    /// CG&A 12(2), 1992). A point at depth `z` is seen by the right eye `eye_shift * (1 / convergence - 1 / z)` to the
+    /// right of where the middle sees it, in units of the picture plane at distance 1, and by the left eye as far to the
+    /// left.
+    pub fn ray(&self, x: f32, y: f32, eye: f32) -> Ray {
         let across = x / self.width as f32 * 2.0 - 1.0;
         let upwards = 1.0 - y / self.height as f32 * 2.0;
-        Ray::new(self.eye, self.forward + self.right * across + self.up * upwards)
+        let direction = self.forward + self.right * across + self.up * upwards;
+        if eye == 0.0 {
+            return Ray::new(self.eye, direction);
+        }
+        let aside = self.right.normalize() * (self.eye_shift * eye);
+        Ray::new(self.eye + aside, direction - aside / self.convergence)
     }
 }
 
@@ -75,15 +87,39 @@ mod tests {
         };
         let camera = Camera::on_orbit(&orbit, 40.0, 1280, 968);
         let angle = |x, y| {
-            let direction = camera.ray(x, y).direction.normalize();
+            let direction = camera.ray(x, y, 0.0).direction.normalize();
             direction.dot(camera.forward).acos().to_degrees()
         };
-        assert!(camera.ray(640.0, 484.0).at(3.0).distance(Vec3::ONE) < 1e-5);
+        assert!(camera.ray(640.0, 484.0, 0.0).at(3.0).distance(Vec3::ONE) < 1e-5);
         assert!((angle(640.0, 0.0) - 20.0).abs() < 1e-3);
         assert!((angle(640.0, 968.0) - 20.0).abs() < 1e-3);
         let half_width = (20.0_f32.to_radians().tan() * 1280.0 / 968.0).atan().to_degrees();
         assert!((angle(1280.0, 484.0) - half_width).abs() < 1e-3);
-        assert!(camera.ray(1280.0, 484.0).direction.dot(camera.right) > 0.0);
-        assert!(camera.ray(640.0, 0.0).direction.dot(camera.up) > 0.0);
+        assert!(camera.ray(1280.0, 484.0, 0.0).direction.dot(camera.right) > 0.0);
+        assert!(camera.ray(640.0, 0.0, 0.0).direction.dot(camera.up) > 0.0);
+    }
+
+    #[test]
+    fn eyes_agree_at_the_depth_of_convergence_and_part_behind_it() {
+        let orbit = Orbit {
+            center: Vec3::ZERO,
+            radius: 4.0,
+            azimuth: -20.0,
+            elevation: 35.0,
+            up: Up::Z,
+        };
+        let camera = Camera {
+            eye_shift: 0.03,
+            convergence: 3.0,
+            ..Camera::on_orbit(&orbit, 50.0, 640, 480)
+        };
+        for (x, y) in [(320.0, 240.0), (12.5, 400.5), (600.0, 3.0)] {
+            let at = |eye, depth| camera.ray(x, y, eye).at(depth);
+            assert!(at(-1.0, 3.0).distance(at(1.0, 3.0)) < 1e-6);
+            let right = camera.right.normalize();
+            assert!(at(1.0, 0.0).distance(camera.eye + right * 0.03) < 1e-6);
+            // Twice as far they are crossed by as much.
+            assert!((at(1.0, 6.0) - at(-1.0, 6.0)).distance(right * -0.06) < 1e-5);
+        }
     }
 }

@@ -4,8 +4,9 @@ use crate::camera::Camera;
 use crate::environment::Environment;
 use crate::light::Light;
 use crate::octree::Root;
+use crate::stereo::{SIDE_BY_SIDE, STACKED};
 use bytemuck::{Pod, Zeroable};
-use glam::Vec3;
+use glam::{UVec2, Vec3, uvec2};
 
 /// Bit of [`Frame::features`]: all triangles are flat, whatever their materials say.
 pub const FLAT: u32 = 1;
@@ -48,10 +49,25 @@ pub struct Frame {
     pub depth: u32,
     /// Rays are not followed that could change no channel by more than this part of their light.
     pub cutoff: f32,
+    /// How two eyes share the picture: one of [`crate::stereo`].
+    pub stereo: u32,
     /// Fills the row.
-    pub reserved_a: u32,
-    /// Fills the row.
-    pub reserved_b: u32,
+    pub reserved: u32,
 }
 
 const _: () = assert!(size_of::<Frame>() == 288);
+
+impl Frame {
+    /// Width and height of the picture in pixels: the camera's, or twice as wide or high where the eyes have a half each.
+    #[inline]
+    pub fn size(&self) -> UVec2 {
+        let (width, height) = (self.camera.width, self.camera.height);
+        if self.stereo == SIDE_BY_SIDE {
+            uvec2(2 * width, height)
+        } else if self.stereo == STACKED {
+            uvec2(width, 2 * height)
+        } else {
+            uvec2(width, height)
+        }
+    }
+}

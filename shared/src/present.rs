@@ -1,16 +1,17 @@
 //! From the sums of samples to what is shown.
 
 use crate::buffer::load;
+use crate::tone::tone_mapped;
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3, Vec4, Vec4Swizzles};
 
 /// How a picture is shown on a surface: the uniform buffer of the entry points `present_*`.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Present {
     /// Width of the picture, pixels.
     pub width: u32,
-    /// Height of the picture, pixels.
+    /// Rows of the picture that are shown.
     pub height: u32,
     /// Width of the surface, pixels.
     pub surface_width: u32,
@@ -20,13 +21,21 @@ pub struct Present {
     pub overlay_width: u32,
     /// Height of the overlay, pixels.
     pub overlay_height: u32,
-    /// Fills the row; fields of their own because an array in a uniform buffer needs 16 bytes an element.
+    /// What colours are multiplied with.
+    pub exposure: f32,
+    /// How they are made to fit the screen: one of [`crate::tone`].
+    pub curve: u32,
+    /// First row of the picture that is shown, for pictures that hold two.
+    pub first_row: u32,
+    /// Fills the rows; fields of their own because an array in a uniform buffer needs 16 bytes an element.
     pub reserved_a: u32,
-    /// Fills the row.
+    /// Fills the rows.
     pub reserved_b: u32,
+    /// Fills the rows.
+    pub reserved_c: u32,
 }
 
-const _: () = assert!(size_of::<Present>() == 32);
+const _: () = assert!(size_of::<Present>() == 48);
 
 /// The mean of a pixel's samples, linear RGB; magenta where no sample was ever written.
 pub fn mean_color(sum: Vec4) -> Vec3 {
@@ -43,8 +52,9 @@ pub fn mean_color(sum: Vec4) -> Vec3 {
 /// opacity a pixel, not premultiplied, and is not enlarged.
 pub fn presented_color(present: &Present, picture: &[Vec4], overlay: &[u32], at: Vec2) -> Vec4 {
     let column = scaled(at.x, present.surface_width, present.width);
-    let row = scaled(at.y, present.surface_height, present.height);
+    let row = present.first_row + scaled(at.y, present.surface_height, present.height);
     let color = mean_color(load(picture, row * present.width + column));
+    let color = tone_mapped(color, present.exposure, present.curve);
     let (x, y) = (at.x as u32, at.y as u32);
     if x < present.overlay_width && y < present.overlay_height {
         let texel = load(overlay, y * present.overlay_width + x);
@@ -77,15 +87,15 @@ mod tests {
             surface_height: 8,
             overlay_width: 1,
             overlay_height: 2,
-            reserved_a: 0,
-            reserved_b: 0,
+            exposure: 0.5,
+            ..Present::zeroed()
         };
         let overlay = [0xff00_ff00, 0x0000_0000];
         let color = |x, y| presented_color(&present, &picture, &overlay, vec2(x, y));
         assert_eq!(color(3.5, 3.5).x, 0.0);
-        assert_eq!(color(4.5, 3.5).x, 0.5);
-        assert_eq!(color(3.5, 4.5).x, 1.0);
-        assert_eq!(color(7.5, 7.5).x, 1.5);
+        assert_eq!(color(4.5, 3.5).x, 0.25);
+        assert_eq!(color(3.5, 4.5).x, 0.5);
+        assert_eq!(color(7.5, 7.5).x, 0.75);
         assert_eq!(color(0.5, 0.5), Vec4::new(0.0, 1.0, 0.0, 1.0), "opaque overlay");
         assert_eq!(color(0.5, 1.5).x, 0.0, "clear overlay");
     }

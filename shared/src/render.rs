@@ -6,16 +6,22 @@ use crate::ray::Ray;
 use crate::sampling::sample;
 use crate::scene::World;
 use crate::shading::shade;
+use crate::stereo::EyeView;
 use crate::surface::Surface;
 use crate::trace::closest_hit;
 use crate::traversal::Traversal;
 use crate::whitted::{Traced, trace};
-use glam::{UVec2, Vec3, Vec4};
+use glam::{UVec2, Vec2, Vec3, Vec4};
 
-/// The ray of a pixel's sample.
+/// The ray of a pixel's sample; where two eyes share the pixel, the left one's.
 pub fn sample_ray(frame: &Frame, pixel: UVec2, number: u32) -> Ray {
     let place = sample(frame, number).place;
-    frame.camera.ray(pixel.x as f32 + place.x, pixel.y as f32 + place.y)
+    ray_of(frame, &EyeView::new(frame, pixel, 0), place)
+}
+
+fn ray_of(frame: &Frame, view: &EyeView, place: Vec2) -> Ray {
+    let (x, y) = (view.pixel.x as f32 + place.x, view.pixel.y as f32 + place.y);
+    frame.camera.ray(x, y, view.eye)
 }
 
 /// What a pixel's samples came to.
@@ -36,18 +42,19 @@ pub fn render_pixel<V: Traversal, const FULL: bool>(frame: &Frame, world: &World
         sum: Vec4::ZERO,
         work: Vec4::ZERO,
     };
+    let eyes = EyeView::eyes(frame);
     let mut number = 0;
-    while number < frame.sample_count {
-        let sample = sample(frame, frame.first_sample + number);
-        let ray = frame
-            .camera
-            .ray(pixel.x as f32 + sample.place.x, pixel.y as f32 + sample.place.y);
+    while number < frame.sample_count * eyes {
+        let sample = sample(frame, frame.first_sample + number / eyes);
+        let view = EyeView::new(frame, pixel, number % eyes);
+        let ray = ray_of(frame, &view, sample.place);
         let traced = if FULL {
             trace::<V>(frame, world, &ray)
         } else {
             first_surface::<V>(frame, world, &ray)
         };
-        result.sum += (traced.color * sample.weight).extend(sample.weight);
+        let (color, weight) = view.share(frame, traced.color * sample.weight, sample.weight);
+        result.sum += color.extend(weight);
         result.work += Vec4::new(traced.rays as f32, traced.shadow_rays as f32, traced.cut, 0.0);
         number += 1;
     }

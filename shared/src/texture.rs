@@ -41,6 +41,11 @@ pub struct Texture {
 const _: () = assert!(size_of::<Texture>() == 32);
 
 impl Texture {
+    /// Whether it has texels.
+    pub fn is_image(&self) -> bool {
+        self.kind == SRGB_IMAGE || self.kind == SHARED_EXPONENT_IMAGE
+    }
+
     /// The colour at texture coordinates, linear RGB; between the middles of an image's texels it is interpolated.
     pub fn color(&self, texels: &[u32], at: Vec2) -> Vec3 {
         let at = at * self.repeats;
@@ -103,11 +108,7 @@ impl Texture {
     pub fn slope(&self, texels: &[u32], at: Vec2) -> Vec2 {
         // A texel apart, or a hundredth of a pattern's period.
         let step = |count: u32| {
-            if self.kind == SRGB_IMAGE || self.kind == SHARED_EXPONENT_IMAGE {
-                1.0 / count as f32
-            } else {
-                0.01
-            }
+            if self.is_image() { 1.0 / count as f32 } else { 0.01 }
         };
         let step = vec2(step(self.width), step(self.height)) / max(self.repeats, f32::MIN_POSITIVE);
         let mut heights = [0.0; 4];

@@ -40,16 +40,28 @@ impl Cpu {
         cancel: &AtomicBool,
         progress: Progress<'_>,
     ) -> bool {
-        let scene = self.scene.view();
+        let world = self.scene.world();
+        let size = frame.size();
+        let body = if self.scene.is_plain() {
+            render_pixel::<Standard, false>
+        } else {
+            render_pixel::<Standard, true>
+        };
         let overwrite = frame.first_sample == 0;
-        let rows = frame.camera.height.div_ceil(TILE);
+        let rows = size.y.div_ceil(TILE);
         let done = AtomicU32::new(0);
+        let mut pixels: Vec<_> = picture.sums.iter_mut().zip(&mut picture.work).collect();
         for_each_tile(
-            &mut picture.sums,
-            frame.camera.width,
-            |pixel, sum: &mut Vec4| {
-                let color = render_pixel::<Standard>(frame, &scene, pixel);
-                *sum = if overwrite { color } else { *sum + color };
+            &mut pixels,
+            size.x,
+            |pixel, (sum, work): &mut (&mut Vec4, &mut Vec4)| {
+                let pixel = body(frame, &world, pixel);
+                if overwrite {
+                    (**sum, **work) = (pixel.sum, pixel.work);
+                } else {
+                    **sum += pixel.sum;
+                    **work += pixel.work;
+                }
             },
             || {
                 let finished = done.fetch_add(1, Ordering::Relaxed) + 1;
@@ -67,18 +79,20 @@ impl Backend for Cpu {
     }
 
     fn render(&mut self, frame: &Frame, progress: Progress<'_>) -> Result<Picture, BackendError> {
-        let mut picture = Picture::unwritten(frame.camera.width, frame.camera.height);
+        let size = frame.size();
+        let mut picture = Picture::unwritten(size.x, size.y);
         self.render_pass(frame, &mut picture, &AtomicBool::new(false), progress);
         Ok(picture)
     }
 
     fn hits(&mut self, frame: &Frame) -> Result<Vec<Hit>, BackendError> {
-        let scene = self.scene.view();
-        let mut hits = vec![Hit::miss(0.0); frame.camera.width as usize * frame.camera.height as usize];
+        let world = self.scene.world();
+        let size = frame.size();
+        let mut hits = vec![Hit::miss(0.0); size.x as usize * size.y as usize];
         for_each_tile(
             &mut hits,
-            frame.camera.width,
-            |pixel, hit| *hit = hit_pixel::<Standard>(frame, &scene, pixel),
+            size.x,
+            |pixel, hit| *hit = hit_pixel::<Standard>(frame, &world, pixel),
             || true,
         );
         Ok(hits)

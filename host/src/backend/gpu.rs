@@ -15,11 +15,12 @@ use super::{Backend, BackendError, Parts, Query};
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::scene::Scene;
-use glam::Vec4;
+use glam::{Vec4, uvec2};
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
 use oktant_shared::ray::Ray;
 use readback::Timer;
+use resources::PLAIN;
 use std::sync::Arc;
 
 /// Renders on a GPU with a scene that lies in its memory.
@@ -30,8 +31,10 @@ pub struct GpuBackend {
 
 /// Camera rays that one dispatch may have: more would keep a slow GPU busy longer than its driver's watchdog allows.
 const RAYS_PER_DISPATCH: u64 = 1 << 24;
+/// The same for camera rays that have trees of rays.
+const TREES_PER_DISPATCH: u64 = 1 << 21;
 
-/// Edge of the workgroups of the entry points `render` and `hits`.
+/// Edge of the workgroups of the entry points that look at pixels.
 const TILE: u32 = 8;
 /// Size of the workgroups of the entry points that take an array.
 const LINE: u32 = 64;
@@ -58,13 +61,15 @@ impl GpuBackend {
     /// # Errors
     /// [`BackendError::Failed`], also where the device has no clock.
     pub fn time_render(&self, frame: &Frame, repeats: u32) -> Result<Vec<f64>, BackendError> {
-        let picture = self.gpu.picture(frame.camera.width, frame.camera.height)?;
+        let size = frame.size();
+        let picture = self.gpu.picture(size.x, size.y)?;
+        self.gpu.pipeline(self.scene.entry)?;
         let timer = self.timer()?;
         (0..repeats)
             .map(|_| {
                 let mut encoder = self.gpu.encoder();
                 self.gpu
-                    .encode_render(&mut encoder, &self.scene, &picture, frame, Some(&timer));
+                    .encode_render(&mut encoder, &self.scene, &picture, frame, Some(&timer))?;
                 timer.finish(&self.gpu, encoder)
             })
             .collect()
@@ -149,10 +154,15 @@ impl Backend for GpuBackend {
     }
 
     fn render(&mut self, frame: &Frame, progress: Progress<'_>) -> Result<Picture, BackendError> {
-        let (width, height) = (frame.camera.width, frame.camera.height);
-        let picture = self.gpu.picture(width, height)?;
+        let (width, height) = frame.size().into();
         let pixels = u64::from(width) * u64::from(height);
-        let samples_per_dispatch = (RAYS_PER_DISPATCH / pixels.max(1)).clamp(1, u64::from(frame.sample_count)) as u32;
+        let picture = self.gpu.picture_and_work(width, height, pixels)?;
+        let rays = if self.scene.entry == PLAIN {
+            RAYS_PER_DISPATCH
+        } else {
+            TREES_PER_DISPATCH
+        };
+        let samples_per_dispatch = (rays / pixels.max(1)).clamp(1, u64::from(frame.sample_count)) as u32;
         let mut done = 0;
         while done < frame.sample_count {
             let pass = Frame {
@@ -169,16 +179,17 @@ impl Backend for GpuBackend {
             width,
             height,
             sums: self.gpu.read(&picture.sums)?,
+            work: self.gpu.read(&picture.work)?,
         })
     }
 
     fn hits(&mut self, frame: &Frame) -> Result<Vec<Hit>, BackendError> {
-        let (width, height) = (frame.camera.width, frame.camera.height);
+        let (width, height) = frame.size().into();
         let gpu = &self.gpu;
         let hits = gpu.output("hits", u64::from(width) * u64::from(height) * size_of::<Hit>() as u64)?;
         let pipeline = gpu.pipeline("hits")?;
         let frame = gpu.frame_group(frame);
-        let group = gpu.group(&gpu.layouts.picture, &[&hits]);
+        let group = gpu.group(&gpu.layouts.hits, &[&hits]);
         let mut encoder = gpu.encoder();
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
@@ -186,6 +197,7 @@ impl Backend for GpuBackend {
             pass.set_bind_group(0, &self.scene.group, &[]);
             pass.set_bind_group(1, &frame, &[]);
             pass.set_bind_group(2, &group, &[]);
+            pass.set_bind_group(3, &self.scene.appearance, &[]);
             pass.dispatch_workgroups(width.div_ceil(TILE), height.div_ceil(TILE), 1);
         }
         gpu.queue.submit([encoder.finish()]);
@@ -213,7 +225,7 @@ impl Gpu {
     /// [`BackendError::Failed`] where the device is lost.
     pub fn render_pass(&self, scene: &GpuScene, picture: &GpuPicture, frame: &Frame) -> Result<(), BackendError> {
         let mut encoder = self.encoder();
-        self.encode_render(&mut encoder, scene, picture, frame, None);
+        self.encode_render(&mut encoder, scene, picture, frame, None)?;
         self.queue.submit([encoder.finish()]);
         self.check()
     }
@@ -232,11 +244,11 @@ impl Gpu {
         let mut encoder = self.encoder();
         let timer = if self.is_software() { None } else { Timer::new(self) };
         if let Some(timer) = timer {
-            self.encode_render(&mut encoder, scene, picture, frame, Some(&timer));
+            self.encode_render(&mut encoder, scene, picture, frame, Some(&timer))?;
             timer.finish(self, encoder)
         } else {
             let start = std::time::Instant::now();
-            self.encode_render(&mut encoder, scene, picture, frame, None);
+            self.encode_render(&mut encoder, scene, picture, frame, None)?;
             self.queue.submit([encoder.finish()]);
             self.wait()?;
             Ok(start.elapsed().as_secs_f64() * 1e3)
@@ -250,21 +262,21 @@ impl Gpu {
         picture: &GpuPicture,
         frame: &Frame,
         timer: Option<&Timer>,
-    ) {
-        debug_assert_eq!(
-            (frame.camera.width, frame.camera.height),
-            (picture.width, picture.height)
-        );
+    ) -> Result<(), BackendError> {
+        debug_assert_eq!(frame.size(), uvec2(picture.width, picture.height));
+        let pipeline = self.pipeline(scene.entry)?;
         let frame_group = self.frame_group(frame);
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("render"),
             timestamp_writes: timer.map(Timer::writes),
         });
-        pass.set_pipeline(&self.render_pipeline);
+        pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &scene.group, &[]);
         pass.set_bind_group(1, &frame_group, &[]);
         pass.set_bind_group(2, &picture.group, &[]);
+        pass.set_bind_group(3, &scene.appearance, &[]);
         pass.dispatch_workgroups(picture.width.div_ceil(TILE), picture.height.div_ceil(TILE), 1);
+        Ok(())
     }
 
     /// A new picture's sums, for tests of what is written.

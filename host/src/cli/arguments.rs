@@ -4,9 +4,13 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use oktant::backend::BackendChoice;
 use oktant::backend::gpu::ModulePath;
 use oktant::octree::OctreeOptions;
-use oktant::view::{Place, Samples, Shading, View};
+use oktant::sampling::{Filter, Pattern, Samples};
+use oktant::stereo::{Stereo, StereoMode};
+use oktant::tone::Curve;
+use oktant::view::{Shading, View};
 use oktant_shared::octree::MAX_DEPTH;
 use oktant_shared::orbit::Up;
+use oktant_shared::whitted::MAX_DEPTH as MAX_TREE_DEPTH;
 use std::path::PathBuf;
 
 /// Interactive ray tracer of triangle meshes whose GPU kernel is written in Rust.
@@ -43,9 +47,9 @@ pub struct ViewArguments {
     pub look: LookArguments,
     #[command(flatten)]
     pub engine: EngineArguments,
-    /// Size of the window's picture in pixels.
-    #[arg(long, value_name = "WxH", default_value = "1280x968", value_parser = size)]
-    pub size: Size,
+    /// Size of the window's picture in pixels [default: 1280x968].
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<Size>,
     /// Feed the window from a file instead of a person; docs/viewer.md describes the format.
     #[arg(long, value_name = "FILE")]
     pub script: Option<PathBuf>,
@@ -58,9 +62,9 @@ pub struct RenderArguments {
     /// The picture: a PNG file. An existing one is replaced once the new one is complete.
     #[arg(short, long, value_name = "OUT.png")]
     pub output: PathBuf,
-    /// Size of the picture in pixels.
-    #[arg(long, value_name = "WxH", default_value = "1280x968", value_parser = size)]
-    pub size: Size,
+    /// Size of the picture in pixels [default: as the scene says, else 1280x968].
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<Size>,
     #[command(flatten)]
     pub look: LookArguments,
     #[command(flatten)]
@@ -79,7 +83,7 @@ pub struct InfoArguments {
 /// Which mesh, and its octree.
 #[derive(Debug, Default, Args)]
 pub struct MeshArguments {
-    /// A PLY file, or one of the built-in meshes `bunny` and `balls` [default: bunny].
+    /// A scene file (TOML), a PLY file, or one of the built-in meshes `bunny` and `balls` [default: bunny].
     pub mesh: Option<PathBuf>,
     /// Limits of the octree, any of depth=0..13, leaf=N (cells with so few references are not split) and budget=N
     /// (references per triangle at most), separated by commas.
@@ -87,89 +91,109 @@ pub struct MeshArguments {
     pub octree: Octree,
 }
 
-/// How the picture looks.
-#[derive(Debug, Args)]
+/// How the picture looks. What is not given is as the scene says, or as it is for a mesh alone.
+#[derive(Debug, Default, Args)]
 pub struct LookArguments {
-    /// Samples of a pixel, on a regular grid.
-    #[arg(long, value_enum, default_value = "1")]
-    pub samples: SamplesArgument,
-    /// Normals: of the triangle (flat), or interpolated between the vertices (phong).
-    #[arg(long, value_enum, default_value = "phong")]
-    pub shading: ShadingArgument,
-    /// Where the camera stands, degrees: 0 in front (+Z, or -Y with --up z), counterclockwise seen from above.
-    #[arg(long, value_name = "DEGREES", default_value_t = View::default().camera.azimuth, allow_negative_numbers = true, value_parser = finite)]
-    pub azimuth: f32,
-    /// How high the camera stands, degrees above the horizon, -90 to 90.
-    #[arg(long, value_name = "DEGREES", default_value_t = View::default().camera.elevation, allow_negative_numbers = true, value_parser = elevation)]
-    pub elevation: f32,
-    /// How far the camera is from the centre of the mesh, in radii of its bounding sphere.
-    #[arg(long, value_name = "RADII", default_value_t = View::default().camera.distance, value_parser = distance)]
-    pub distance: f32,
-    /// Vertical field of view, degrees, 1 to 170.
-    #[arg(long, value_name = "DEGREES", default_value_t = View::default().field_of_view, value_parser = field_of_view)]
-    pub fov: f32,
-    /// Which axis of the mesh points up.
-    #[arg(long, value_enum, default_value = "y")]
-    pub up: UpArgument,
-    /// Where the light stands, degrees, counted like --azimuth.
-    #[arg(long, value_name = "DEGREES", default_value_t = View::default().light.azimuth, allow_negative_numbers = true, value_parser = finite)]
-    pub light_azimuth: f32,
-    /// How high the light stands, degrees above the horizon, -90 to 90.
-    #[arg(long, value_name = "DEGREES", default_value_t = View::default().light.elevation, allow_negative_numbers = true, value_parser = elevation)]
-    pub light_elevation: f32,
-    /// How far the light is from the centre of the mesh, in radii of its bounding sphere.
-    #[arg(long, value_name = "RADII", default_value_t = View::default().light.distance, value_parser = distance)]
-    pub light_distance: f32,
-}
-
-impl Default for LookArguments {
-    fn default() -> Self {
-        let view = View::default();
-        LookArguments {
-            samples: SamplesArgument::One,
-            shading: ShadingArgument::Phong,
-            azimuth: view.camera.azimuth,
-            elevation: view.camera.elevation,
-            distance: view.camera.distance,
-            fov: view.field_of_view,
-            up: UpArgument::Y,
-            light_azimuth: view.light.azimuth,
-            light_elevation: view.light.elevation,
-            light_distance: view.light.distance,
-        }
-    }
+    /// Samples of a pixel [default: 1].
+    #[arg(long, value_enum)]
+    pub samples: Option<Samples>,
+    /// Where in a pixel the samples lie [default: regular].
+    #[arg(long, value_enum)]
+    pub pattern: Option<Pattern>,
+    /// How much each sample counts [default: box].
+    #[arg(long, value_enum)]
+    pub filter: Option<Filter>,
+    /// Normals: of the triangle (flat), or interpolated between the vertices (phong) [default: phong].
+    #[arg(long, value_enum)]
+    pub shading: Option<Shading>,
+    /// How many times a ray may be reflected or refracted, 0 to 16 [default: 5].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_TREE_DEPTH)))]
+    pub depth: Option<u32>,
+    /// Rays that can change no colour by more than this part of their light are left out [default: 0.002].
+    #[arg(long, value_name = "PART", value_parser = cutoff)]
+    pub cutoff: Option<f32>,
+    /// Where the camera stands, degrees: 0 in front (+Z, or -Y with --up z), counterclockwise seen from above
+    /// [default: 0].
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = finite)]
+    pub azimuth: Option<f32>,
+    /// How high the camera stands, degrees above the horizon, -90 to 90 [default: 15].
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = elevation)]
+    pub elevation: Option<f32>,
+    /// How far the camera is from what it looks at, in radii of the mesh's bounding sphere; of a scene that has a
+    /// camera, in halves of the height that it sees [default: 2.8].
+    #[arg(long, value_name = "RADII", value_parser = distance)]
+    pub distance: Option<f32>,
+    /// Vertical field of view, degrees, 1 to 170 [default: 40].
+    #[arg(long, value_name = "DEGREES", value_parser = field_of_view)]
+    pub fov: Option<f32>,
+    /// Which axis points up [default: y].
+    #[arg(long, value_enum)]
+    pub up: Option<UpArgument>,
+    /// Where the first light stands, degrees, counted like --azimuth [default: -40].
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = finite)]
+    pub light_azimuth: Option<f32>,
+    /// How high the first light stands, degrees above the horizon, -90 to 90 [default: 50].
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = elevation)]
+    pub light_elevation: Option<f32>,
+    /// How far the first light is, counted like --distance [default: 6].
+    #[arg(long, value_name = "RADII", value_parser = distance)]
+    pub light_distance: Option<f32>,
+    /// Pictures for two eyes.
+    #[arg(long, value_enum)]
+    pub stereo: Option<StereoMode>,
+    /// Distance between the eyes, scene units [default: a thirtieth of --convergence].
+    #[arg(long, value_name = "UNITS", value_parser = length)]
+    pub eye_distance: Option<f32>,
+    /// Depth that appears on the screen itself, scene units [default: what the camera looks at].
+    #[arg(long, value_name = "UNITS", value_parser = length)]
+    pub convergence: Option<f32>,
+    /// Brightness in stops: each doubles the light [default: 0].
+    #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = exposure)]
+    pub exposure: Option<f32>,
+    /// Curve that makes bright light fit the screen [default: none].
+    #[arg(long, value_enum)]
+    pub tone: Option<Curve>,
 }
 
 impl LookArguments {
-    /// The view they describe.
-    pub fn view(&self) -> View {
-        View {
-            camera: Place {
-                azimuth: self.azimuth,
-                elevation: self.elevation,
-                distance: self.distance,
-            },
-            light: Place {
-                azimuth: self.light_azimuth,
-                elevation: self.light_elevation,
-                distance: self.light_distance,
-            },
-            field_of_view: self.fov,
-            up: match self.up {
+    /// A view with what is given here changed.
+    pub fn applied(&self, mut view: View) -> View {
+        fn set<T: Copy>(value: &mut T, given: Option<T>) {
+            *value = given.unwrap_or(*value);
+        }
+        set(&mut view.samples, self.samples);
+        set(&mut view.pattern, self.pattern);
+        set(&mut view.filter, self.filter);
+        set(&mut view.shading, self.shading);
+        set(&mut view.depth, self.depth);
+        set(&mut view.cutoff, self.cutoff);
+        set(&mut view.camera.azimuth, self.azimuth);
+        set(&mut view.camera.elevation, self.elevation);
+        set(&mut view.camera.distance, self.distance);
+        set(&mut view.field_of_view, self.fov);
+        set(
+            &mut view.up,
+            self.up.map(|up| match up {
                 UpArgument::Y => Up::Y,
                 UpArgument::Z => Up::Z,
-            },
-            shading: match self.shading {
-                ShadingArgument::Flat => Shading::Flat,
-                ShadingArgument::Phong => Shading::Phong,
-            },
-            samples: match self.samples {
-                SamplesArgument::One => Samples::One,
-                SamplesArgument::Four => Samples::Four,
-                SamplesArgument::Sixteen => Samples::Sixteen,
-            },
-            ..View::default()
+            }),
+        );
+        set(&mut view.light.azimuth, self.light_azimuth);
+        set(&mut view.light.elevation, self.light_elevation);
+        set(&mut view.light.distance, self.light_distance);
+        set(&mut view.tone.exposure, self.exposure);
+        set(&mut view.tone.curve, self.tone);
+        if let Some(mode) = self.stereo {
+            view.stereo = Some(Stereo {
+                mode,
+                ..view.stereo.unwrap_or(Stereo::new(mode))
+            });
         }
+        if let Some(stereo) = &mut view.stereo {
+            stereo.eye_distance = self.eye_distance.or(stereo.eye_distance);
+            stereo.convergence = self.convergence.or(stereo.convergence);
+        }
+        view
     }
 }
 
@@ -219,22 +243,6 @@ pub enum SpirvArgument {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum SamplesArgument {
-    #[value(name = "1")]
-    One,
-    #[value(name = "4")]
-    Four,
-    #[value(name = "16")]
-    Sixteen,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum ShadingArgument {
-    Flat,
-    Phong,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum UpArgument {
     Y,
     Z,
@@ -253,6 +261,12 @@ impl Default for Size {
             width: 1280,
             height: 968,
         }
+    }
+}
+
+impl From<[u32; 2]> for Size {
+    fn from([width, height]: [u32; 2]) -> Self {
+        Size { width, height }
     }
 }
 
@@ -320,6 +334,18 @@ fn elevation(text: &str) -> Result<f32, String> {
 
 fn field_of_view(text: &str) -> Result<f32, String> {
     number(text, 1.0, 170.0, "give a number of degrees from 1 to 170")
+}
+
+fn length(text: &str) -> Result<f32, String> {
+    number(text, 1e-12, 1e12, "give a number of scene units above 0")
+}
+
+fn exposure(text: &str) -> Result<f32, String> {
+    number(text, -30.0, 30.0, "give a number of stops from -30 to 30")
+}
+
+fn cutoff(text: &str) -> Result<f32, String> {
+    number(text, 0.0, 1.0, "give a number from 0 to 1")
 }
 
 fn distance(text: &str) -> Result<f32, String> {

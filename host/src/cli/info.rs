@@ -9,7 +9,8 @@ use std::fmt::Write;
 
 pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let loaded = arguments.mesh.load()?;
-    let (mesh, scene) = (&loaded.mesh, &loaded.scene);
+    let scene = &loaded.scene;
+    let triangles = loaded.triangles.max(1) as f64;
     let statistics = OctreeStatistics::new(&scene.nodes, scene.references.len());
     let mut text = String::new();
     let mut line = |name: &str, value: String| {
@@ -20,20 +21,14 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         "triangles",
         format!(
             "{} ({} without area and {} duplicates are left out)",
-            mesh.triangles.len(),
-            scene.degenerate,
-            scene.duplicates
+            loaded.triangles, scene.degenerate, scene.duplicates
         ),
     );
-    let colors = if mesh.colors.is_empty() {
-        "no colours"
-    } else {
-        "colours"
-    };
-    line("vertices", format!("{}, {colors}", mesh.positions.len()));
+    let colors = if loaded.has_colors { "colours" } else { "no colours" };
+    line("vertices", format!("{}, {colors}", loaded.vertices));
     line("box", format!("{} to {}", scene.low, scene.high));
-    if mesh.shift != DVec3::ZERO {
-        line("shift", format!("{} was subtracted from all vertices", mesh.shift));
+    if loaded.shift != DVec3::ZERO {
+        line("shift", format!("{} was subtracted from all vertices", loaded.shift));
     }
     let root = &scene.root;
     line(
@@ -60,7 +55,7 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         format!(
             "{}, {:.2} per triangle, {} in the fullest leaf",
             statistics.references,
-            statistics.references as f64 / mesh.triangles.len() as f64,
+            statistics.references as f64 / triangles,
             statistics.fullest
         ),
     );
@@ -70,10 +65,10 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         format!(
             "{}, {:.1} per triangle ({:.1} octree, {:.1} triangles, {:.1} normals and colours)",
             scene.bytes(),
-            scene.bytes() as f64 / mesh.triangles.len() as f64,
-            statistics.bytes as f64 / mesh.triangles.len() as f64,
-            size_of_val(scene.triangles.as_slice()) as f64 / mesh.triangles.len() as f64,
-            size_of_val(scene.vertices.as_slice()) as f64 / mesh.triangles.len() as f64,
+            scene.bytes() as f64 / triangles,
+            statistics.bytes as f64 / triangles,
+            size_of_val(scene.triangles.as_slice()) as f64 / triangles,
+            size_of_val(scene.vertices.as_slice()) as f64 / triangles,
         ),
     );
     line(

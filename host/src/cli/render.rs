@@ -1,11 +1,10 @@
 //! `oktant render`.
 
 use super::Failure;
-use super::arguments::{EngineArguments, MeshArguments, RenderArguments, Size};
+use super::arguments::{EngineArguments, LookArguments, MeshArguments, RenderArguments, Size};
 use super::engine::Engine;
 use super::progress_bar::ProgressBar;
 use oktant::output::PictureFile;
-use oktant::view::View;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -15,7 +14,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         &arguments.mesh,
         &arguments.output,
         arguments.size,
-        &arguments.look.view(),
+        &arguments.look,
         &arguments.engine,
         arguments.repeat,
     )
@@ -25,8 +24,8 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
 pub fn render(
     mesh: &MeshArguments,
     output: &Path,
-    size: Size,
-    view: &View,
+    size: Option<Size>,
+    look: &LookArguments,
     engine: &EngineArguments,
     repeat: u32,
 ) -> Result<(), Failure> {
@@ -42,7 +41,9 @@ pub fn render(
     // First of all, so that nobody waits for a picture that cannot be stored.
     let file = PictureFile::create(output)?;
     let loaded = mesh.load()?;
-    let triangles = loaded.mesh.triangles.len();
+    let triangles = loaded.triangles;
+    let size = size.or(loaded.size.map(Size::from)).unwrap_or_default();
+    let view = look.applied(loaded.view);
     let scene = Arc::new(loaded.scene);
     let frame = view.frame(&scene, size.width, size.height);
     let mut engine = Engine::new(engine, &scene)?;

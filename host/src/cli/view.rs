@@ -3,6 +3,7 @@
 use super::Failure;
 use super::arguments::ViewArguments;
 use super::render::render;
+use oktant::view::View;
 use oktant::viewer::{ViewerError, ViewerOptions};
 use std::path::{Path, PathBuf};
 
@@ -10,11 +11,12 @@ use std::path::{Path, PathBuf};
 const PICTURE: &str = "oktant.png";
 
 pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
+    let size = arguments.size.unwrap_or_default();
     let options = ViewerOptions {
         source: arguments.mesh.source(),
         octree: arguments.mesh.octree.0,
-        view: arguments.look.view(),
-        size: [arguments.size.width, arguments.size.height],
+        view: arguments.look.applied(View::default()),
+        size: [size.width, size.height],
         backend: arguments.engine.choice(),
         module: arguments.engine.module(),
         script: arguments.script.clone(),
@@ -29,7 +31,7 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
                 &arguments.mesh,
                 Path::new(PICTURE),
                 arguments.size,
-                &arguments.look.view(),
+                &arguments.look,
                 &arguments.engine,
                 1,
             )

@@ -258,6 +258,7 @@ fn assemble(vertices: Vertices, faces: Vec<Faces>, count: usize, shift: DVec3) -
         triangles,
         normals: vertices.normals,
         colors: vertices.colors,
+        coordinates: Vec::new(),
         shift,
     };
     // Before vertices are split for their colours, which shall not make an edge.

@@ -18,8 +18,8 @@ use super::translation::Translation;
 use super::{ViewerError, ViewerOptions};
 use crate::backend::BackendChoice;
 use crate::backend::gpu::GpuOptions;
-use crate::mesh_source::MeshSource;
 use crate::scene::Scene;
+use crate::source::Source;
 use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -52,7 +52,7 @@ pub struct Application {
     pub(super) figures: Figures,
     pub(super) scene: Option<Arc<Scene>>,
     /// What the scene was made from.
-    pub(super) source: MeshSource,
+    pub(super) source: Source,
     /// The mesh that is being loaded.
     pub(super) loading: Option<Loading>,
     /// Loads begun.
@@ -154,7 +154,7 @@ impl Application {
         }
     }
 
-    pub(super) fn load(&mut self, source: MeshSource) {
+    pub(super) fn load(&mut self, source: Source) {
         self.loads += 1;
         self.loading = Some(Loading {
             source: source.clone(),
@@ -189,7 +189,7 @@ impl Application {
             Effect::Redraw => self.redraw(),
             Effect::Render => self.schedule.change(now),
             Effect::Save(path) => self.save(path),
-            Effect::Open(path) => self.load(MeshSource::File(path)),
+            Effect::Open(path) => self.load(Source::from_path(path)),
             Effect::SwitchBackend => self.switch_backend(now),
             Effect::Quit => self.quits = true,
         }

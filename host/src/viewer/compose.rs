@@ -2,9 +2,11 @@
 
 use super::overlay::Overlay;
 use crate::picture::Picture;
+use bytemuck::Zeroable;
 use glam::{Vec3, vec2};
+use oktant_shared::color::linear_from_srgb;
 use oktant_shared::present::{Present, mean_color, presented_color};
-use oktant_shared::shading::linear_from_srgb;
+use oktant_shared::tone::CLIPPED;
 use std::num::NonZero;
 use std::sync::LazyLock;
 
@@ -17,8 +19,9 @@ pub fn present(picture: [u32; 2], overlay: &Overlay, surface: [u32; 2]) -> Prese
         surface_height: surface[1],
         overlay_width: overlay.width,
         overlay_height: overlay.height,
-        reserved_a: 0,
-        reserved_b: 0,
+        exposure: 1.0,
+        curve: CLIPPED,
+        ..Present::zeroed()
     }
 }
 
@@ -183,11 +186,8 @@ mod tests {
             ([30, 30], [17, 11]),
         ] {
             let sum = |value: u32| Vec4::new((value & 255) as f32, (value >> 8 & 255) as f32, 90.0, 255.0);
-            let picture = Picture {
-                width: size[0],
-                height: size[1],
-                sums: (0..size[0] * size[1]).map(|_| sum(next())).collect(),
-            };
+            let sums = (0..size[0] * size[1]).map(|_| sum(next())).collect();
+            let picture = Picture::of_sums(size[0], size[1], sums);
             let overlay = Overlay {
                 width: 6,
                 height: 4,
@@ -206,11 +206,7 @@ mod tests {
 
     #[test]
     fn a_surface_shows_the_picture_and_the_overlay() {
-        let picture = Picture {
-            width: 2,
-            height: 1,
-            sums: vec![Vec4::new(0.0, 0.0, 2.0, 2.0), Vec4::ZERO],
-        };
+        let picture = Picture::of_sums(2, 1, vec![Vec4::new(0.0, 0.0, 2.0, 2.0), Vec4::ZERO]);
         let overlay = Overlay {
             width: 1,
             height: 1,

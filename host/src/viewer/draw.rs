@@ -29,13 +29,10 @@ impl Application {
             window.set_title(&title);
             self.title = title;
         }
-        let image = self.image.clone().unwrap_or_else(|| {
-            Image::Cpu(Arc::new(Picture {
-                width: 1,
-                height: 1,
-                sums: vec![EMPTY.extend(1.0)],
-            }))
-        });
+        let image = self
+            .image
+            .clone()
+            .unwrap_or_else(|| Image::Cpu(Arc::new(Picture::of_sums(1, 1, vec![EMPTY.extend(1.0)]))));
         // The first picture of the GPU's: from now on it draws the window.
         if let (GpuState::Open(gpu), Image::Gpu(_)) = (&self.gpu, &image)
             && !self.screen.as_ref().is_some_and(|screen| screen.is_drawn_by(gpu))

@@ -1,9 +1,9 @@
 //! Reading a mesh and building its octree beside the window.
 
-use super::notice::{Mailbox, MeshError, Notice};
-use crate::mesh_source::MeshSource;
+use super::notice::{LoadError, Mailbox, Notice};
 use crate::octree::OctreeOptions;
 use crate::scene::Scene;
+use crate::source::Source;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 const INTERVAL: Duration = Duration::from_millis(50);
 
 /// Begins to load a mesh; the mailbox learns how far it is, and gets the scene. `load` is the number under which it does.
-pub fn load(load: u64, source: MeshSource, octree: OctreeOptions, mailbox: &Mailbox) {
+pub fn load(load: u64, source: Source, octree: OctreeOptions, mailbox: &Mailbox) {
     let mailbox = mailbox.clone();
     thread::spawn(move || {
         let last = Mutex::new(Instant::now());
@@ -23,14 +23,15 @@ pub fn load(load: u64, source: MeshSource, octree: OctreeOptions, mailbox: &Mail
                 mailbox.send(Notice::Loading { load, stage, fraction });
             }
         };
-        let scene = || -> Result<Scene, MeshError> {
-            let mesh = source.load(&progress)?;
-            Scene::new(&mesh, &octree, &progress).map_err(|error| MeshError::Scene {
+        let load_scene = || -> Result<_, LoadError> {
+            let setting = source.load(&progress)?;
+            let scene = Scene::of_model(setting.model, &octree, &progress).map_err(|error| LoadError::Scene {
                 name: source.to_string(),
                 source: error,
-            })
+            })?;
+            Ok((Arc::new(scene), setting.view))
         };
-        let result = scene().map(Arc::new);
+        let result = load_scene();
         mailbox.send(Notice::Loaded { load, result });
     });
 }

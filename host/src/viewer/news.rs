@@ -5,7 +5,7 @@ use super::notice::{Image, Notice};
 use super::schedule::Quality;
 use super::screen::Screen;
 use super::state::{GpuState, Work};
-use crate::view::Samples;
+use crate::sampling::Samples;
 use std::time::Instant;
 
 impl Application {
@@ -25,7 +25,7 @@ impl Application {
             Notice::Loaded { result, .. } => {
                 let loading = self.loading.take();
                 match result {
-                    Ok(scene) => {
+                    Ok((scene, _)) => {
                         if self.scene.replace(scene).is_some() {
                             self.session.reset();
                         }

@@ -4,8 +4,9 @@ use crate::backend::BackendError;
 use crate::backend::gpu::{Gpu, GpuPicture};
 use crate::output::OutputError;
 use crate::picture::Picture;
-use crate::ply::PlyError;
 use crate::scene::{Scene, SceneError};
+use crate::source::SourceError;
+use crate::view::View;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 use winit::event_loop::EventLoopProxy;
@@ -27,7 +28,7 @@ pub enum Notice {
         /// Number of the load.
         load: u64,
         /// What came of it.
-        result: Result<Arc<Scene>, MeshError>,
+        result: Result<(Arc<Scene>, View), LoadError>,
     },
     /// The GPU is open, or cannot be.
     GpuOpened(Result<OpenGpu, BackendError>),
@@ -98,16 +99,16 @@ impl std::fmt::Debug for Image {
     }
 }
 
-/// Why there is no mesh.
+/// Why there is nothing to show.
 #[derive(Debug, thiserror::Error)]
-pub enum MeshError {
+pub enum LoadError {
     /// The file cannot be read.
     #[error(transparent)]
-    Ply(#[from] PlyError),
+    Source(#[from] SourceError),
     /// There is nothing in it to see.
     #[error("{name}: {source}")]
     Scene {
-        /// Where the mesh came from.
+        /// Where it came from.
         name: String,
         /// What is missing.
         source: SceneError,

@@ -115,7 +115,8 @@ impl Worker {
 
     /// Tells the window of a pass and remembers how long it took.
     fn passed(&mut self, frame: &Frame, milliseconds: f64) {
-        let rays = u64::from(frame.camera.width) * u64::from(frame.camera.height) * u64::from(frame.sample_count);
+        let size = frame.size();
+        let rays = u64::from(size.x) * u64::from(size.y) * u64::from(frame.sample_count);
         self.pace.measured(rays, milliseconds);
         self.mailbox.send(Notice::Refined {
             samples: frame.first_sample + frame.sample_count,
@@ -128,9 +129,8 @@ impl Worker {
         let Some(plan) = Plan::new(task) else { return };
         let cpu = Cpu::new(task.scene.clone());
         let cancel = self.cancel.clone();
-        let [width, height] = task.size;
         for (frame, complete) in plan.pictures {
-            let mut picture = Picture::unwritten(width, height);
+            let mut picture = Picture::unwritten(frame.size().x, frame.size().y);
             // One sample at a time: the CPU can be stopped at any tile, but the figures are to move.
             for sample in 0..frame.sample_count {
                 let pass = Frame {
@@ -151,7 +151,7 @@ impl Worker {
     fn show_gpu(&mut self, task: &Task, gpu: &Arc<Gpu>) -> Result<(), BackendError> {
         let Some(plan) = Plan::new(task) else { return Ok(()) };
         for (frame, complete) in plan.pictures {
-            let picture = self.spare_picture(gpu, task.size)?;
+            let picture = self.spare_picture(gpu, frame.size().into())?;
             if !self.passes(task, gpu, &picture, &frame, true)? {
                 return Ok(());
             }
@@ -234,13 +234,9 @@ impl Worker {
         let picture = match &task.engine {
             Engine::Cpu => Cpu::new(task.scene.clone()).render(&frame, &silent)?,
             Engine::Gpu(gpu) => {
-                let picture = self.spare_picture(gpu, task.size)?;
+                let picture = self.spare_picture(gpu, frame.size().into())?;
                 self.passes(task, gpu, &picture, &frame, false)?;
-                Picture {
-                    width,
-                    height,
-                    sums: gpu.read_picture(&picture)?,
-                }
+                Picture::of_sums(picture.width, picture.height, gpu.read_picture(&picture)?)
             }
         };
         file.save(&picture)?;

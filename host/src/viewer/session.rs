@@ -1,7 +1,8 @@
 //! What the person has set, apart from window, threads and devices.
 
 use super::input::Input;
-use crate::view::{Samples, Shading, View};
+use crate::sampling::Samples;
+use crate::view::{Shading, View};
 use glam::Vec3;
 use oktant_shared::orbit::Orbit;
 use std::path::PathBuf;
@@ -274,7 +275,7 @@ mod tests {
             up: view.up,
         };
         let camera = oktant_shared::camera::Camera::on_orbit(&orbit, view.field_of_view, 800, 600);
-        let ray = camera.ray(400.0 + 60.0, 300.0 - 45.0);
+        let ray = camera.ray(400.0 + 60.0, 300.0 - 45.0, 0.0);
         let nearest = ray.at(-ray.origin.dot(ray.direction) / ray.direction.length_squared());
         assert!(nearest.length() < 1e-4, "{nearest}");
     }

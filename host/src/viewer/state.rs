@@ -1,7 +1,7 @@
 //! What the window remembers about the work of others.
 
 use crate::backend::gpu::Gpu;
-use crate::mesh_source::MeshSource;
+use crate::source::Source;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -24,7 +24,7 @@ pub enum Work {
 /// A mesh on its way.
 #[derive(Clone, Debug)]
 pub struct Loading {
-    pub source: MeshSource,
+    pub source: Source,
     pub stage: &'static str,
     pub fraction: f32,
 }

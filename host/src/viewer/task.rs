@@ -2,8 +2,9 @@
 
 use super::schedule::Quality;
 use crate::backend::gpu::Gpu;
+use crate::sampling::Samples;
 use crate::scene::Scene;
-use crate::view::{Samples, View};
+use crate::view::View;
 use oktant_shared::frame::Frame;
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -2,6 +2,7 @@
 
 use super::kernel_module::{ModulePath, create_module};
 use super::layouts::Layouts;
+use super::resources::PLAIN;
 use crate::backend::BackendError;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -30,7 +31,6 @@ pub struct Gpu {
     /// Whether the kernel is passed through to the driver unchanged.
     pub passthrough: bool,
     pub(super) layouts: Layouts,
-    pub(super) render_pipeline: Arc<wgpu::ComputePipeline>,
     module: wgpu::ShaderModule,
     pipelines: Mutex<HashMap<&'static str, Arc<wgpu::ComputePipeline>>>,
     failure: Arc<Mutex<Option<String>>>,
@@ -120,7 +120,6 @@ impl Gpu {
                 adapter: name.clone(),
                 reason,
             })?;
-        let render_pipeline = Arc::new(create_pipeline(&device, &module, &layouts, "render"));
         let gpu = Gpu {
             name,
             instance,
@@ -129,12 +128,12 @@ impl Gpu {
             queue,
             passthrough,
             layouts,
-            render_pipeline,
             module,
             pipelines: Mutex::default(),
             failure,
         };
-        gpu.check()?;
+        // The one that most need, so that a driver that cannot is found out now.
+        gpu.pipeline(PLAIN)?;
         Ok(gpu)
     }
 

@@ -4,17 +4,22 @@ use wgpu::BindGroupLayout;
 
 /// The layouts of all bind groups and pipelines; the doc comment of `kernel/src/lib.rs` says what is where.
 pub(super) struct Layouts {
-    /// Set 0 of the entry points that trace: nodes, references, triangles, vertices.
+    /// Set 0 of the entry points that trace: nodes, references, triangles.
     pub scene: BindGroupLayout,
     /// Set 1 of those: the frame.
     pub frame: BindGroupLayout,
-    /// Set 2 of `render` and `hits`: what is written.
+    /// Set 2 of `render` and `render_plain`: the picture, and the work.
     pub picture: BindGroupLayout,
+    /// Set 2 of `hits`.
+    pub hits: BindGroupLayout,
+    /// Set 3 of the entry points that look at pixels: what surfaces look like.
+    pub appearance: BindGroupLayout,
     /// Set 2 of the entry points that cast: hits, then rays. Set 0 of the probes with one input.
     pub cast: BindGroupLayout,
     /// Set 0 of the probes with two inputs: results, then the inputs.
     pub probe: BindGroupLayout,
     pixels: wgpu::PipelineLayout,
+    pixel_hits: wgpu::PipelineLayout,
     rays: wgpu::PipelineLayout,
     probes_of_one: wgpu::PipelineLayout,
     probes_of_two: wgpu::PipelineLayout,
@@ -51,19 +56,24 @@ impl Layouts {
                 immediate_size: 0,
             })
         };
-        let scene = group("scene", &[READ; 4]);
+        let scene = group("scene", &[READ; 3]);
         let frame = group("frame", &[wgpu::BufferBindingType::Uniform]);
-        let picture = group("picture", &[WRITE]);
+        let picture = group("picture", &[WRITE; 2]);
+        let hits = group("hits", &[WRITE]);
+        let appearance = group("appearance", &[READ; 8]);
         let cast = group("cast", &[WRITE, READ]);
         let probe = group("probe", &[WRITE, READ, READ]);
         Layouts {
-            pixels: pipeline(&[Some(&scene), Some(&frame), Some(&picture)]),
+            pixels: pipeline(&[Some(&scene), Some(&frame), Some(&picture), Some(&appearance)]),
+            pixel_hits: pipeline(&[Some(&scene), Some(&frame), Some(&hits), Some(&appearance)]),
             rays: pipeline(&[Some(&scene), Some(&frame), Some(&cast)]),
             probes_of_one: pipeline(&[Some(&cast)]),
             probes_of_two: pipeline(&[Some(&probe)]),
             scene,
             frame,
             picture,
+            hits,
+            appearance,
             cast,
             probe,
         }
@@ -72,7 +82,8 @@ impl Layouts {
     /// The layout of an entry point's pipeline.
     pub fn pipeline(&self, entry: &str) -> &wgpu::PipelineLayout {
         match entry {
-            "render" | "hits" => &self.pixels,
+            "render" | "render_plain" => &self.pixels,
+            "hits" => &self.pixel_hits,
             "probe_arithmetic" | "probe_color" => &self.probes_of_one,
             _ if entry.starts_with("probe_") => &self.probes_of_two,
             _ => &self.rays,

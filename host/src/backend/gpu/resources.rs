@@ -11,12 +11,18 @@ use wgpu::util::DeviceExt;
 /// A scene in the device's memory.
 pub struct GpuScene {
     pub(super) group: wgpu::BindGroup,
+    pub(super) appearance: wgpu::BindGroup,
     pub(super) root: Root,
+    /// The entry point that renders it.
+    pub(super) entry: &'static str,
     /// Bytes of all its buffers.
     pub bytes: u64,
 }
 
-/// A picture in the device's memory: for each pixel the sum of its samples' linear RGB, and their number.
+/// The entry point that renders what [`Scene::is_plain`].
+pub(super) const PLAIN: &str = "render_plain";
+
+/// A picture in the device's memory: for each pixel the weighted sum of its samples' linear RGB, and of the weights.
 pub struct GpuPicture {
     /// Pixels in a row.
     pub width: u32,
@@ -24,6 +30,8 @@ pub struct GpuPicture {
     pub height: u32,
     /// The sums, row by row from the upper left: a storage buffer.
     pub sums: wgpu::Buffer,
+    /// What they cost, in the same order; a single one where that is not counted.
+    pub(super) work: wgpu::Buffer,
     pub(super) group: wgpu::BindGroup,
 }
 
@@ -37,27 +45,56 @@ impl Gpu {
         let nodes = self.input("nodes", &scene.nodes)?;
         let references = self.input("references", &scene.references)?;
         let triangles = self.input("triangles", &scene.triangles)?;
+        let geometry = [&nodes, &references, &triangles];
         let vertices = self.input("vertices", &scene.vertices)?;
-        let buffers = [&nodes, &references, &triangles, &vertices];
+        let coordinates = self.input("texture coordinates", &scene.coordinates)?;
+        let material_ids = self.input("material ids", &scene.material_ids)?;
+        let materials = self.input("materials", &scene.materials)?;
+        let lights = self.input("lights", &scene.lights)?;
+        let planes = self.input("planes", &scene.planes)?;
+        let textures = self.input("textures", &scene.textures)?;
+        let texels = self.input("texels", &scene.texels)?;
+        let appearance = [
+            &vertices,
+            &coordinates,
+            &material_ids,
+            &materials,
+            &lights,
+            &planes,
+            &textures,
+            &texels,
+        ];
         self.check()?;
         Ok(GpuScene {
-            group: self.group(&self.layouts.scene, &buffers),
+            group: self.group(&self.layouts.scene, &geometry),
+            appearance: self.group(&self.layouts.appearance, &appearance),
             root: scene.root,
-            bytes: buffers.iter().map(|buffer| buffer.size()).sum(),
+            entry: if scene.is_plain() { PLAIN } else { "render" },
+            bytes: geometry.iter().chain(&appearance).map(|buffer| buffer.size()).sum(),
         })
     }
 
-    /// A picture in which nothing is written yet.
+    /// A picture in which nothing is written yet, to be looked at.
     ///
     /// # Errors
     /// As [`Gpu::upload`].
     pub fn picture(&self, width: u32, height: u32) -> Result<GpuPicture, BackendError> {
+        self.picture_and_work(width, height, 1)
+    }
+
+    /// As [`Gpu::picture`], where also is counted what so many pixels cost.
+    ///
+    /// # Errors
+    /// As [`Gpu::upload`].
+    pub(super) fn picture_and_work(&self, width: u32, height: u32, counted: u64) -> Result<GpuPicture, BackendError> {
         let sums = self.output("pixels", u64::from(width) * u64::from(height) * 16)?;
-        let group = self.group(&self.layouts.picture, &[&sums]);
+        let work = self.output("pixels", counted * 16)?;
+        let group = self.group(&self.layouts.picture, &[&sums, &work]);
         Ok(GpuPicture {
             width,
             height,
             sums,
+            work,
             group,
         })
     }

@@ -1,0 +1,56 @@
+//! Where the scene comes from.
+
+use super::Failure;
+use super::arguments::MeshArguments;
+use super::progress_bar::ProgressBar;
+use glam::DVec3;
+use oktant::scene::Scene;
+use oktant::source::Source;
+use oktant::view::View;
+use std::time::{Duration, Instant};
+
+/// A scene with its view, figures of its mesh, and how long everything took.
+pub struct Loaded {
+    pub scene: Scene,
+    pub view: View,
+    pub size: Option<[u32; 2]>,
+    pub triangles: usize,
+    pub vertices: usize,
+    pub has_colors: bool,
+    pub shift: DVec3,
+    pub reading: Duration,
+    pub building: Duration,
+}
+
+impl MeshArguments {
+    /// What to load.
+    pub fn source(&self) -> Source {
+        Source::from_argument(self.mesh.as_deref())
+    }
+
+    /// Reads the scene and builds its octree, with progress on a terminal.
+    pub fn load(&self) -> Result<Loaded, Failure> {
+        let bar = ProgressBar::new();
+        let start = Instant::now();
+        let setting = self.source().load(&|stage, fraction| bar.show(stage, fraction))?;
+        let reading = start.elapsed();
+        let start = Instant::now();
+        let mesh = &setting.model.mesh;
+        let (triangles, vertices) = (mesh.triangles.len(), mesh.positions.len());
+        let (has_colors, shift) = (!mesh.colors.is_empty(), mesh.shift);
+        let scene = Scene::of_model(setting.model, &self.octree.0, &|stage, fraction| {
+            bar.show(stage, fraction)
+        })?;
+        Ok(Loaded {
+            scene,
+            view: setting.view,
+            size: setting.size,
+            triangles,
+            vertices,
+            has_colors,
+            shift,
+            reading,
+            building: start.elapsed(),
+        })
+    }
+}

@@ -1,0 +1,75 @@
+//! Where a scene comes from, and how it is first seen.
+
+use crate::mesh_source::MeshSource;
+use crate::model::Model;
+use crate::ply::PlyError;
+use crate::progress::Progress;
+use crate::view::View;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// A model, and the view that comes with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// What there is to see.
+    pub model: Model,
+    /// From where, and how.
+    pub view: View,
+    /// Width and height of the picture in pixels, where the scene says so.
+    pub size: Option<[u32; 2]>,
+}
+
+/// Something that can be looked at.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// A mesh alone.
+    Mesh(MeshSource),
+}
+
+/// Why there is nothing to look at.
+#[derive(Debug, thiserror::Error)]
+pub enum SourceError {
+    /// The mesh cannot be had.
+    #[error(transparent)]
+    Mesh(#[from] PlyError),
+}
+
+impl Default for Source {
+    fn default() -> Self {
+        Source::Mesh(MeshSource::default())
+    }
+}
+
+impl Source {
+    /// What a person means who names something on the command line, or nothing.
+    pub fn from_argument(argument: Option<&Path>) -> Self {
+        Source::Mesh(MeshSource::from_argument(argument))
+    }
+
+    /// What a file holds, by its name.
+    pub fn from_path(path: PathBuf) -> Self {
+        Source::Mesh(MeshSource::File(path))
+    }
+
+    /// Loads it.
+    ///
+    /// # Errors
+    /// [`SourceError`].
+    pub fn load(&self, progress: Progress<'_>) -> Result<Setting, SourceError> {
+        Ok(match self {
+            Source::Mesh(mesh) => Setting {
+                model: Model::of_mesh(mesh.load(progress)?),
+                view: View::default(),
+                size: None,
+            },
+        })
+    }
+}
+
+impl fmt::Display for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Source::Mesh(mesh) => mesh.fmt(f),
+        }
+    }
+}
