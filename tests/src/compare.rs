@@ -176,11 +176,7 @@ mod tests {
 
     #[test]
     fn equal_pictures_agree_and_others_do_not() {
-        let first = Picture {
-            width: 1000,
-            height: 1,
-            sums: vec![Vec4::new(0.2, 0.2, 0.2, 1.0); 1000],
-        };
+        let first = Picture::of_sums(1000, 1, vec![Vec4::new(0.2, 0.2, 0.2, 1.0); 1000]);
         let mut second = first.clone();
         assert!(ColorDifferences::new(&first, &second).agree());
         second.sums[0].x = 0.5;
