@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
-/// Indexed triangles with optional normals and colours per vertex.
+/// Indexed triangles with optional normals, colours and texture coordinates per vertex.
 ///
 /// Triangle ids everywhere in oktant are indices into [`Mesh::triangles`]: file order after polygons are cut.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,7 +18,8 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// Empty, or one sRGB-encoded colour (red, green, blue, alpha) per vertex.
     pub colors: Vec<[u8; 4]>,
-    /// Empty, or one texture coordinate per vertex; (0, 0) is the lower left corner of an image.
+    /// Empty, or one texture coordinate per vertex; (0, 0) is the lower left corner of an image, (1, 1) the upper right
+    /// one. All finite.
     pub coordinates: Vec<Vec2>,
     /// What was subtracted from every position of the file, in f64, before rounding to f32; zero for most files.
     pub shift: DVec3,

@@ -42,8 +42,8 @@ fn unorm(value: f64) -> u8 {
 
 /// Gives the corners of each triangle the triangle's colour, where it has one.
 ///
-/// A vertex whose triangles have several colours is split into one for each, which keep its position and its normal;
-/// the first keeps its index, the others come after all vertices of the file.
+/// A vertex whose triangles have several colours is split into one for each, which keep its position, its normal and
+/// its texture coordinate; the first keeps its index, the others come after all vertices of the file.
 pub(super) fn paint(mesh: &mut Mesh, colors: &[Option<[u8; 4]>]) -> Result<(), Fault> {
     let own = if mesh.colors.is_empty() {
         vec![OPAQUE; mesh.positions.len()]
@@ -69,6 +69,9 @@ pub(super) fn paint(mesh: &mut Mesh, colors: &[Option<[u8; 4]>]) -> Result<(), F
                         mesh.positions.push(mesh.positions[vertex]);
                         if !mesh.normals.is_empty() {
                             mesh.normals.push(mesh.normals[vertex]);
+                        }
+                        if !mesh.coordinates.is_empty() {
+                            mesh.coordinates.push(mesh.coordinates[vertex]);
                         }
                         mesh.colors.push(color);
                         *entry.insert(copy as u32)

@@ -4,9 +4,10 @@
 //! list (`data`) have been checked against the size of the file. So time and memory are bounded by what is in the
 //! file, not by what it claims.
 //!
-//! Used are `x`, `y`, `z`, `nx`, `ny`, `nz` and the colours (`red`, `green`, `blue` and `alpha`, also with `diffuse_`
-//! before them or as initials) of `vertex`, the list `vertex_indices` or `vertex_index` and the colours of `face`, and
-//! the list of `tristrips`. All else is skipped.
+//! Used are `x`, `y`, `z`, `nx`, `ny`, `nz`, the colours (`red`, `green`, `blue` and `alpha`, also with `diffuse_`
+//! before them or as initials) and the texture coordinates (the first complete pair of `s t`, `u v`,
+//! `texture_u texture_v` and `texture_s texture_t`) of `vertex`, the list `vertex_indices` or `vertex_index` and the
+//! colours of `face`, and the list of `tristrips`. All else is skipped, texture coordinates of faces (`texcoord`) too.
 
 mod color;
 mod data;
@@ -61,7 +62,7 @@ pub fn read(path: &Path, progress: Progress<'_>) -> Result<Mesh, PlyError> {
 /// Triangles are in file order, a polygon of n corners being n - 2 of them; those without area are kept. Faces with
 /// fewer than three corners are left out, with a warning. If only some normals are valid, or if faces have colours but
 /// vertices no normals, the missing normals are computed ([`Mesh::with_normals`]); without any, [`Mesh::normals`] stays
-/// empty.
+/// empty. A texture coordinate's NaN or infinity becomes zero.
 ///
 /// # Errors
 /// Says in one sentence what is wrong with the file: see [`Fault`].
@@ -258,7 +259,7 @@ fn assemble(vertices: Vertices, faces: Vec<Faces>, count: usize, shift: DVec3) -
         triangles,
         normals: vertices.normals,
         colors: vertices.colors,
-        coordinates: Vec::new(),
+        coordinates: vertices.coordinates,
         shift,
     };
     // Before vertices are split for their colours, which shall not make an edge.

@@ -16,6 +16,8 @@ pub(super) enum Role {
     Green,
     Blue,
     Alpha,
+    TextureS,
+    TextureT,
     Corners,
 }
 
@@ -36,6 +38,8 @@ impl Role {
             Self::Green => "g",
             Self::Blue => "b",
             Self::Alpha => "a",
+            Self::TextureS => "s",
+            Self::TextureT => "t",
             Self::Corners => "c",
         }
     }
@@ -53,6 +57,8 @@ impl Role {
             b"g" => Self::Green,
             b"b" => Self::Blue,
             b"a" => Self::Alpha,
+            b"s" => Self::TextureS,
+            b"t" => Self::TextureT,
             b"c" => Self::Corners,
             _ => return None,
         })
@@ -83,6 +89,7 @@ pub(super) fn assign_to_vertex(element: &mut Element) -> Result<(), Fault> {
         element.columns[y].role = Some(Role::NormalY);
         element.columns[z].role = Some(Role::NormalZ);
     }
+    assign_texture(element)?;
     assign_colors(element)
 }
 
@@ -97,6 +104,22 @@ pub(super) fn assign_to_face(element: &mut Element) -> Result<(), Fault> {
     })?;
     element.columns[column].role = Some(Role::Corners);
     assign_colors(element)
+}
+
+fn assign_texture(element: &mut Element) -> Result<(), Fault> {
+    for (s, t) in [
+        ("s", "t"),
+        ("u", "v"),
+        ("texture_u", "texture_v"),
+        ("texture_s", "texture_t"),
+    ] {
+        if let (Some(s), Some(t)) = (element.find(s, false)?, element.find(t, false)?) {
+            element.columns[s].role = Some(Role::TextureS);
+            element.columns[t].role = Some(Role::TextureT);
+            break;
+        }
+    }
+    Ok(())
 }
 
 fn assign_colors(element: &mut Element) -> Result<(), Fault> {

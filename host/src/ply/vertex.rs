@@ -1,6 +1,6 @@
-//! Vertices: positions, normals, colours.
+//! Vertices: positions, normals, colours, texture coordinates.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use ply_rs::ply::{Property, PropertyAccess};
 
 use super::color::{OPAQUE, channel};
@@ -14,6 +14,7 @@ struct Vertex {
     position: DVec3,
     normal: DVec3,
     color: [u8; 4],
+    coordinate: DVec2,
 }
 
 impl PropertyAccess for Vertex {
@@ -22,6 +23,7 @@ impl PropertyAccess for Vertex {
             position: DVec3::ZERO,
             normal: DVec3::ZERO,
             color: OPAQUE,
+            coordinate: DVec2::ZERO,
         }
     }
 
@@ -37,6 +39,8 @@ impl PropertyAccess for Vertex {
             Some(Role::Green) => self.color[1] = channel(&property),
             Some(Role::Blue) => self.color[2] = channel(&property),
             Some(Role::Alpha) => self.color[3] = channel(&property),
+            Some(Role::TextureS) => self.coordinate.x = scalar(&property),
+            Some(Role::TextureT) => self.coordinate.y = scalar(&property),
             Some(Role::Corners) | None => {}
         }
     }
@@ -104,6 +108,8 @@ pub(super) struct Vertices {
     pub(super) normals: Vec<Vec3>,
     /// Empty, or one for each vertex.
     pub(super) colors: Vec<[u8; 4]>,
+    /// Empty, or one for each vertex, with zero for each number that is not finite.
+    pub(super) coordinates: Vec<Vec2>,
     /// How many lines had more words than declared.
     pub(super) surplus: usize,
 }
@@ -115,6 +121,7 @@ impl Vertices {
             positions: Positions::with_capacity(single, count),
             normals: Vec::new(),
             colors: Vec::new(),
+            coordinates: Vec::new(),
             surplus: 0,
         }
     }
@@ -124,6 +131,7 @@ impl Vertices {
         self.positions.append(more.positions);
         self.normals.extend(more.normals);
         self.colors.extend(more.colors);
+        self.coordinates.extend(more.coordinates);
         self.surplus += more.surplus;
     }
 
@@ -131,12 +139,16 @@ impl Vertices {
     pub(super) fn read(reader: &Reader<'_>, chunk: &Chunk<'_>, single: bool) -> Result<Self, Fault> {
         let has_normals = reader.element().has(Role::NormalX);
         let has_colors = reader.element().has(Role::Red);
+        let has_coordinates = reader.element().has(Role::TextureS);
         let mut vertices = Self::with_capacity(single, chunk.count);
         if has_normals {
             vertices.normals.reserve_exact(chunk.count);
         }
         if has_colors {
             vertices.colors.reserve_exact(chunk.count);
+        }
+        if has_coordinates {
+            vertices.coordinates.reserve_exact(chunk.count);
         }
         let surplus = reader.read(chunk, |item: Item<Vertex>| {
             check_position(reader, &item)?;
@@ -147,6 +159,9 @@ impl Vertices {
             }
             if has_colors {
                 vertices.colors.push(vertex.color);
+            }
+            if has_coordinates {
+                vertices.coordinates.push(finite_or_zero(vertex.coordinate));
             }
             Ok(())
         })?;
@@ -187,6 +202,13 @@ fn unit_or_zero(normal: DVec3) -> Vec3 {
     } else {
         Vec3::ZERO
     }
+}
+
+/// Each number for itself, as in an ascii file, where NaN and infinity are read as zero.
+fn finite_or_zero(coordinate: DVec2) -> Vec2 {
+    coordinate
+        .as_vec2()
+        .map(|number| if number.is_finite() { number } else { 0.0 })
 }
 
 fn scalar(property: &Property) -> f64 {

@@ -108,7 +108,8 @@ fn push_word(
                 value: excerpt(word),
             });
         }
-        // ply-rs does not read NaN; a zero normal counts as missing, which is what a normal of NaN shall do.
+        // ply-rs does not read NaN; a zero normal counts as missing, which is what a normal of NaN shall do, and a
+        // texture coordinate of NaN shall be zero.
         None => part.push('0'),
     }
     Ok(())

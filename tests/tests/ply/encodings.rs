@@ -4,25 +4,25 @@ use oktant::mesh::Mesh;
 
 use super::load;
 
-#[derive(Clone, Copy, PartialEq)]
-enum Encoding {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Encoding {
     Ascii,
     Little,
     Big,
 }
 
-const ENCODINGS: [Encoding; 3] = [Encoding::Ascii, Encoding::Little, Encoding::Big];
+pub const ENCODINGS: [Encoding; 3] = [Encoding::Ascii, Encoding::Little, Encoding::Big];
 const INTEGERS: [&str; 6] = ["char", "uchar", "short", "ushort", "int", "uint"];
-const TYPES: [&str; 8] = ["char", "uchar", "short", "ushort", "int", "uint", "float", "double"];
+pub const TYPES: [&str; 8] = ["char", "uchar", "short", "ushort", "int", "uint", "float", "double"];
 
 /// A file that is written value by value.
-struct Writer {
+pub struct Writer {
     encoding: Encoding,
-    bytes: Vec<u8>,
+    pub bytes: Vec<u8>,
 }
 
 impl Writer {
-    fn new(encoding: Encoding, header: &str) -> Self {
+    pub fn new(encoding: Encoding, header: &str) -> Self {
         let format = match encoding {
             Encoding::Ascii => "ascii",
             Encoding::Little => "binary_little_endian",
@@ -32,7 +32,7 @@ impl Writer {
         Self { encoding, bytes }
     }
 
-    fn put(&mut self, kind: &str, value: f64) {
+    pub fn put(&mut self, kind: &str, value: f64) {
         if self.encoding == Encoding::Ascii {
             let word = match kind {
                 "float" => format!("{} ", value as f32),
@@ -58,7 +58,7 @@ impl Writer {
         self.bytes.extend(bytes);
     }
 
-    fn end_element(&mut self) {
+    pub fn end_element(&mut self) {
         if self.encoding == Encoding::Ascii {
             self.bytes.push(b'\n');
         }

@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a panic is how a test fails, in its helpers too")]
 
+mod coordinates;
 mod corpus;
 mod encodings;
 mod files;
@@ -119,6 +120,8 @@ fn check_mesh(mesh: &Mesh) {
     );
     assert!(mesh.colors.is_empty() || mesh.colors.len() == count);
     assert!(mesh.normals.is_empty() || mesh.normals.len() == count);
+    assert!(mesh.coordinates.is_empty() || mesh.coordinates.len() == count);
+    assert!(mesh.coordinates.iter().all(|coordinate| coordinate.is_finite()));
     for normal in &mesh.normals {
         let length = normal.length();
         assert!(length == 0.0 || (length - 1.0).abs() < 1e-5, "{normal}");

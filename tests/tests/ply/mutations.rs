@@ -14,12 +14,13 @@ fn originals() -> Vec<Vec<u8>> {
     let ascii = "ply\nformat ascii 1.0\ncomment made by hand\nobj_info 7\nelement vertex 6\n\
                  property float x\nproperty double y\nproperty float z\nproperty float nx\n\
                  property float ny\nproperty float nz\nproperty uchar red\nproperty uchar green\n\
-                 property uchar blue\nproperty uchar alpha\nelement edge 1\nproperty int v\n\
+                 property uchar blue\nproperty uchar alpha\nproperty float s\nproperty double t\n\
+                 element edge 1\nproperty int v\n\
                  element face 4\nproperty list uchar int vertex_indices\nproperty list uchar float uv\n\
                  property float r\nproperty float g\nproperty float b\n\
                  element tristrips 1\nproperty list int int vertex_indices\nend_header\n\
-                 0 0 0 0 0 1 255 0 0 255\n1 0 0 0 0 1 0 255 0 255\n1.5 1e0 0 0 0 1 0 0 255 9\n\
-                 0.5 1.5 0 0 0 1 1 2 3 4\n-.5 1 0 nan 0 1 5 6 7 8\n0 0 1 0 0 0 1 1 1 1\n8\n\
+                 0 0 0 0 0 1 255 0 0 255 0 0\n1 0 0 0 0 1 0 255 0 255 1 0\n1.5 1e0 0 0 0 1 0 0 255 9 .5 1e-1\n\
+                 0.5 1.5 0 0 0 1 1 2 3 4 0 1\n-.5 1 0 nan 0 1 5 6 7 8 nan 1\n0 0 1 0 0 0 1 1 1 1 -2 3\n8\n\
                  3 0 1 5 0 1 0 0\n5 0 1 2 3 4 2 0.5 0.5 0 1 0\n4 0 1 2 5 0 0 0 1\n2 0 1 0 1 1 1\n\
                  8 0 1 5 2 -1 3 4 5\n";
     let header = |format: &str| {
@@ -27,6 +28,7 @@ fn originals() -> Vec<Vec<u8>> {
             "ply\nformat {format} 1.0\nelement vertex 6\nproperty float x\nproperty float y\n\
              property float z\nproperty short nx\nproperty short ny\nproperty short nz\n\
              property ushort red\nproperty ushort green\nproperty ushort blue\n\
+             property float texture_u\nproperty float texture_v\n\
              element user 2\nproperty list ushort double d\nproperty char c\n\
              element face 3\nproperty uchar red\nproperty list uchar int vertex_index\n\
              property uchar green\nproperty uchar blue\n\
@@ -45,6 +47,9 @@ fn originals() -> Vec<Vec<u8>> {
             put(&value.to_le_bytes());
         }
         for value in [0, 0, i.min(1), 1000 * i, 0, 65535] {
+            put(&value.to_le_bytes());
+        }
+        for value in [0.25 * f32::from(i), 1.0] {
             put(&value.to_le_bytes());
         }
     }
