@@ -102,7 +102,7 @@ const KEPT_BACK: f32 = 1.0 / (1 << 20) as f32;
 const NEARBY: f32 = 4.0;
 
 impl Entered {
-    #[inline]
+    #[inline(always)]
     fn new<B: BoxTest>(scene: &Scene<'_>, ray: &Ray) -> Self {
         let mut ray = PreparedRay::new(ray);
         let Interval { enter, exit } = B::prepare(&ray).interval(&scene.root.aabb());
@@ -153,7 +153,7 @@ struct Walk {
 }
 
 impl Walk {
-    #[inline]
+    #[inline(always)]
     fn new(scene: &Scene<'_>, entered: &Entered) -> Self {
         let root = &scene.root;
         let direction = entered.ray.direction;
@@ -189,7 +189,7 @@ impl Walk {
     }
 
     /// Where the ray crosses the three planes through a place.
-    #[inline]
+    #[inline(always)]
     fn crossings(&self, place: UVec3) -> Vec3 {
         // Exact: the planes of all cells are (see `Root`).
         let plane = self.start + self.step * Vec3::new(place.x as f32, place.y as f32, place.z as f32);
@@ -197,7 +197,7 @@ impl Walk {
     }
 
     /// Goes down to the leaf at the place where the ray enters the current cell.
-    #[inline]
+    #[inline(always)]
     fn leaf(&mut self, scene: &Scene<'_>) -> Node {
         let mut node = load(scene.nodes, self.node);
         while node.is_inner() {
@@ -220,7 +220,7 @@ impl Walk {
     }
 
     /// Leaves the current leaf for the next cell on the way, unless the ray ends before at `limit`.
-    #[inline]
+    #[inline(always)]
     fn leave(&mut self, limit: f32) {
         let length = 1 << self.size;
         let exits = self.crossings(self.place + UVec3::splat(length));
