@@ -1,6 +1,6 @@
 //! The picture, and what each pixel sees.
 
-use glam::{UVec2, UVec3, Vec2, Vec3Swizzles, Vec4};
+use glam::{UVec3, Vec2, Vec3Swizzles, Vec4};
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
 use oktant_shared::light::Light;
@@ -109,6 +109,6 @@ pixels!(
     "Writes the nearest hit of the first sample of each pixel to `hits`, row by row from the upper left.",
     "hits",
     hits,
-    (|frame: &Frame, world: &World<'_>, pixel: UVec2| hit_pixel::<Standard>(frame, world, pixel)),
+    hit_pixel::<Standard>,
     { 0 hits: Hit } put
 );

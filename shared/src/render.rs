@@ -73,7 +73,7 @@ fn first_surface<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> T
     traced.color = if hit.is_hit() {
         let surface = Surface::new::<false>(frame, world, ray, &hit);
         let view = -ray.direction.normalize();
-        shade::<V, false>(frame, world, &surface, view, &mut traced.shadow_rays)
+        shade::<V, false>(frame, world, &surface, view, Vec3::ONE, &mut traced)
     } else {
         frame.environment.gradient(ray.direction)
     };

@@ -1,6 +1,6 @@
 //! The light that a surface reflects in all directions.
 
-use crate::arithmetic::max;
+use crate::arithmetic::{max, max_component};
 use crate::buffer::load;
 use crate::frame::Frame;
 use crate::light::Light;
@@ -10,14 +10,20 @@ use crate::scene::World;
 use crate::shadow::visibility;
 use crate::surface::Surface;
 use crate::traversal::Traversal;
+use crate::whitted::Traced;
 use glam::Vec3;
 #[cfg(target_arch = "spirv")]
 use num_traits::Float;
 
+/// A part of a light's colour that no picture of 16 bits shows.
+pub const NEGLIGIBLE: f32 = 1.0 / (1 << 16) as f32;
+
 /// The colour, linear RGB, in which a viewer in the unit direction `view` sees the surface: ambient, and of each light
 /// that reaches it diffuse (Lambert) and specular: Phong's (1975), or with the vector half-way between light and viewer
-/// (J. F. Blinn, "Models of light reflection for computer synthesized pictures", SIGGRAPH 1977). Adds the number of
-/// shadow rays to `shadow_rays`.
+/// (J. F. Blinn, "Models of light reflection for computer synthesized pictures", SIGGRAPH 1977).
+///
+/// `weight` is the part of it that reaches the eye. A light of which less than [`NEGLIGIBLE`] would arrive there sends no
+/// shadow ray. `traced` counts the shadow rays, and as cut what was left out.
 ///
 /// Both sides of a triangle are lit alike: the normal is turned to the viewer. With `FULL` false there is only the
 /// frame's light.
@@ -26,7 +32,8 @@ pub fn shade<V: Traversal, const FULL: bool>(
     world: &World<'_>,
     surface: &Surface,
     view: Vec3,
-    shadow_rays: &mut u32,
+    weight: Vec3,
+    traced: &mut Traced,
 ) -> Vec3 {
     let mut color = surface.base * surface.material.ambient * frame.ambient;
     let further = if FULL { frame.light_count } else { 0 };
@@ -38,7 +45,7 @@ pub fn shade<V: Traversal, const FULL: bool>(
         } else {
             load(world.appearance.lights, i - 1)
         };
-        color += lit::<V, FULL>(frame, world, surface, view, &light, shadow_rays);
+        color += lit::<V, FULL>(frame, world, surface, view, weight, &light, traced);
         i += 1;
     }
     color
@@ -49,8 +56,9 @@ fn lit<V: Traversal, const FULL: bool>(
     world: &World<'_>,
     surface: &Surface,
     view: Vec3,
+    weight: Vec3,
     light: &Light,
-    shadow_rays: &mut u32,
+    traced: &mut Traced,
 ) -> Vec3 {
     let material = &surface.material;
     let origin = surface.shadow_point + surface.side * surface.clearance;
@@ -68,11 +76,6 @@ fn lit<V: Traversal, const FULL: bool>(
         if !(cosine > 0.0 && above && incident.color != Vec3::ZERO) {
             continue;
         }
-        *shadow_rays += 1;
-        let part = visibility::<V, FULL>(frame, world, origin, &incident);
-        if part == Vec3::ZERO {
-            continue;
-        }
         let highlight = if material.exponent > 0.0 {
             let cosine = if material.flags & PHONG_HIGHLIGHTS != 0 {
                 reflected(-view, surface.normal).dot(direction)
@@ -84,7 +87,13 @@ fn lit<V: Traversal, const FULL: bool>(
             0.0
         };
         let reflected = surface.base * (material.diffuse * cosine) + material.specular * highlight;
-        color += reflected * incident.color * part;
+        let most = max_component(weight * reflected);
+        if most < NEGLIGIBLE {
+            traced.cut += most;
+            continue;
+        }
+        traced.shadow_rays += 1;
+        color += reflected * incident.color * visibility::<V, FULL>(frame, world, origin, &incident);
     }
     color
 }

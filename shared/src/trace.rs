@@ -11,23 +11,27 @@ use crate::traversal::Traversal;
 /// The nearest hit; of equal ones, a triangle comes before a plane. With `FULL` false there are no planes.
 #[inline]
 pub fn closest_hit<V: Traversal, const FULL: bool>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Hit {
-    let mut hit = V::closest_hit(&world.scene, ray);
-    if FULL {
-        let mut i = 0;
-        while i < frame.plane_count {
-            let t = load(world.appearance.planes, i).crossing(ray);
-            if t >= 0.0 && t >= ray.t_min && t <= ray.t_max && t < hit.t {
-                hit = Hit {
-                    t,
-                    triangle: PLANE | i,
-                    u: 0.0,
-                    v: 0.0,
-                };
-            }
-            i += 1;
-        }
+    if !FULL {
+        return V::closest_hit(&world.scene, ray);
     }
-    hit
+    // Planes first: beyond them no triangle needs to be looked for.
+    let mut plane = Hit::miss(ray.t_max);
+    let mut i = 0;
+    while i < frame.plane_count {
+        let t = load(world.appearance.planes, i).crossing(ray);
+        let is_nearer = if plane.is_hit() { t < plane.t } else { t <= plane.t };
+        if t >= 0.0 && t >= ray.t_min && is_nearer {
+            plane = Hit {
+                t,
+                triangle: PLANE | i,
+                u: 0.0,
+                v: 0.0,
+            };
+        }
+        i += 1;
+    }
+    let hit = V::closest_hit(&world.scene, &Ray { t_max: plane.t, ..*ray });
+    if hit.is_hit() { hit } else { plane }
 }
 
 /// Whether there is a hit. With `FULL` false there are no planes.

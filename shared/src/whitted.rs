@@ -37,7 +37,10 @@ pub struct Traced {
 }
 
 /// A ray that is to be followed.
+///
+/// Aligned like its vectors: naga refuses a structure within another whose size is no multiple of that.
 #[derive(Clone, Copy)]
+#[repr(align(16))]
 struct Pending {
     origin: Vec3,
     /// Reflections and refractions before it.
@@ -180,7 +183,7 @@ fn follow<V: Traversal>(frame: &Frame, world: &World<'_>, from: &Pending, traced
         }
     }
     let view = -ray.direction.normalize();
-    let shaded = shade::<V, true>(frame, world, &surface, view, &mut traced.shadow_rays);
+    let shaded = shade::<V, true>(frame, world, &surface, view, weight, traced);
     traced.color += weight * shaded;
 
     let mut mirror = material.mirror;
