@@ -79,7 +79,11 @@ mod tests {
     fn pixels_are_summed_up() {
         let picture = Picture {
             work: vec![vec4(4.0, 8.0, 0.5, 0.0), vec4(6.0, 1.0, 0.0, 0.0), Vec4::ZERO],
-            ..Picture::of_sums(3, 1, vec![vec4(1.0, 1.0, 1.0, 4.0), vec4(0.0, 0.0, 0.0, 4.0), Vec4::ZERO])
+            ..Picture::of_sums(
+                3,
+                1,
+                vec![vec4(1.0, 1.0, 1.0, 4.0), vec4(0.0, 0.0, 0.0, 4.0), Vec4::ZERO],
+            )
         };
         assert_eq!(
             Effort::new(&picture),

@@ -140,7 +140,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("picture.png");
         fs::write(&path, "old").unwrap();
-        PictureFile::create(&path).unwrap().save(&picture(), &Tone::default()).unwrap();
+        PictureFile::create(&path)
+            .unwrap()
+            .save(&picture(), &Tone::default())
+            .unwrap();
         let read = image::open(&path).unwrap().to_rgb8();
         assert_eq!(read.dimensions(), (2, 1));
         assert_eq!(read.get_pixel(0, 0).0, [188, 0, 0], "half the light is 188 of 255");

@@ -125,11 +125,7 @@ mod tests {
     fn sixteen_bits_tell_more_colours_apart_than_eight() {
         let sums = (0..1000).map(|i| vec4(0.2 + i as f32 * 1e-5, 0.0, 0.0, 1.0)).collect();
         let picture = Picture::of_sums(1000, 1, sums);
-        let mut reds: Vec<u16> = picture
-            .to_rgb16(&Tone::default())
-            .into_iter()
-            .step_by(3)
-            .collect();
+        let mut reds: Vec<u16> = picture.to_rgb16(&Tone::default()).into_iter().step_by(3).collect();
         assert!(reds.is_sorted());
         reds.dedup();
         assert!(reds.len() > 600, "{}", reds.len());

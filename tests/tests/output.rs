@@ -185,7 +185,10 @@ fn aovs_are_layers_of_an_exr() {
         let is_hit = ids[pixel] == 0;
         assert!(is_hit || ids[pixel] == u32::MAX);
         assert_eq!((closest[pixel], samples[pixel]), (1.0, 1.0));
-        assert_eq!((shadow[pixel], normal[pixel]), if is_hit { (1.0, 1.0) } else { (0.0, 0.0) });
+        assert_eq!(
+            (shadow[pixel], normal[pixel]),
+            if is_hit { (1.0, 1.0) } else { (0.0, 0.0) }
+        );
         if is_hit {
             assert!((depth[pixel] - distance).abs() < 1e-4);
         } else {
@@ -215,7 +218,13 @@ fn sequential_stereo_is_a_file_for_each_eye() {
     // Side by side they are the same two.
     rendered(
         folder.path(),
-        &["-o", "both.png", "--size=128x48", "--stereo=side-by-side", "--eye-distance=0.2"],
+        &[
+            "-o",
+            "both.png",
+            "--size=128x48",
+            "--stereo=side-by-side",
+            "--eye-distance=0.2",
+        ],
     );
     let both = png(folder.path(), "both.png");
     assert_eq!(both.crop_imm(0, 0, 64, 48).into_rgb8(), left);
@@ -233,7 +242,10 @@ fn sequential_stereo_is_a_file_for_each_eye() {
 fn other_stereo_is_one_file() {
     let folder = folder();
     for mode in ["side-by-side", "rows", "anaglyph"] {
-        rendered(folder.path(), &["-o", "a.png", "--size=64x49", "--aov=id", "--stereo", mode]);
+        rendered(
+            folder.path(),
+            &["-o", "a.png", "--size=64x49", "--aov=id", "--stereo", mode],
+        );
         assert_eq!(names(folder.path()), ["a-id.png", "a.png"]);
         for name in names(folder.path()) {
             assert_eq!(png(folder.path(), &name).into_rgb8().dimensions(), (64, 49), "{mode}");
@@ -305,7 +317,11 @@ fn where_one_file_does_not_fit_the_old_ones_stay() {
         command.arg("-c").arg(script).arg(oktant()).current_dir(folder.path());
         let run = finish(&mut command);
         assert_eq!(run.code, Some(1), "{}", run.error);
-        assert!(run.error.contains(&format!("{failing} cannot be written")), "{}", run.error);
+        assert!(
+            run.error.contains(&format!("{failing} cannot be written")),
+            "{}",
+            run.error
+        );
         assert_eq!(fs::read_to_string(folder.path().join(name)).unwrap(), "the old one");
         assert_eq!(names(folder.path()), [name]);
         fs::remove_file(folder.path().join(name)).unwrap();

@@ -68,10 +68,7 @@ impl Engine {
         self.attempt(|backend| backend.hits(frame))
     }
 
-    fn attempt<T>(
-        &mut self,
-        work: impl Fn(&mut dyn Backend) -> Result<T, BackendError>,
-    ) -> Result<T, BackendError> {
+    fn attempt<T>(&mut self, work: impl Fn(&mut dyn Backend) -> Result<T, BackendError>) -> Result<T, BackendError> {
         let result = match &mut self.kind {
             Kind::Cpu(cpu) => work(cpu),
             Kind::Gpu(gpu) => work(gpu),

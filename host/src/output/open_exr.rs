@@ -41,9 +41,12 @@ pub fn write(writer: impl Write + Seek, picture: &Picture, seen: &Seen, aovs: &[
 fn layer(aov: Aov, picture: &Picture, seen: &Seen) -> Vec<Channel> {
     let of_hits = |name, value: fn(&Hit) -> f32| floats(name, seen.hits.iter().map(value).collect());
     match aov {
-        Aov::Depth => vec![of_hits("depth.Z", |hit| {
-            if hit.is_hit() { hit.t } else { f32::INFINITY }
-        })],
+        Aov::Depth => vec![of_hits(
+            "depth.Z",
+            |hit| {
+                if hit.is_hit() { hit.t } else { f32::INFINITY }
+            },
+        )],
         Aov::Normal => vectors(["normal.X", "normal.Y", "normal.Z"], &seen.normals).into(),
         Aov::Id => {
             let ids = seen.hits.iter().map(|hit| hit.triangle).collect();
