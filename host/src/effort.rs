@@ -100,7 +100,6 @@ mod tests {
     #[test]
     fn what_is_missing_is_what_was_cut() {
         let mut model = Model::of_mesh(balls::balls());
-        model.material_ids = vec![0; model.mesh.triangles.len()];
         model.materials[0].mirror = Vec3::ONE;
         (model.materials[0].diffuse, model.materials[0].ambient) = (0.0, 0.0);
         model.materials[0].specular = Vec3::ZERO;

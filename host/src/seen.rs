@@ -92,7 +92,6 @@ mod tests {
         if floor {
             let low = model.mesh.bounds().unwrap().0;
             model.planes.push(Plane::new(low, Vec3::Y, 0));
-            model.material_ids = vec![0; model.mesh.triangles.len()];
         }
         let scene = Arc::new(Scene::of_model(model, &OctreeOptions::default(), &silent).unwrap());
         let mut cpu = Cpu::new(scene.clone());
