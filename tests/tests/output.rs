@@ -4,6 +4,7 @@
 
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
 use image::{ColorType, DynamicImage};
+use oktant_shared::color::srgb_from_linear;
 use oktant_tests::program::{Run, finish, oktant, run};
 use std::collections::HashMap;
 use std::fs;
@@ -89,8 +90,8 @@ fn all_formats_show_the_same_picture() {
     let light = ["R", "G", "B"].map(|name| floats(&channels, name));
     assert_eq!(eight.dimensions(), (48, 36));
     for (index, (few, many)) in eight.pixels().zip(sixteen.pixels()).enumerate() {
-        for channel in 0..3 {
-            let encoded = oktant_shared::color::srgb_from_linear(light[channel][index].min(1.0));
+        for (channel, light) in light.iter().enumerate() {
+            let encoded = srgb_from_linear(light[index].min(1.0));
             assert!((f32::from(few.0[channel]) - encoded * 255.0).abs() <= 0.501);
             assert!((f32::from(many.0[channel]) - encoded * 65_535.0).abs() <= 0.6);
         }
