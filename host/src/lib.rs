@@ -1,7 +1,9 @@
 //! The host of oktant: files, octree, back ends, viewer.
 
+pub mod aov;
 pub mod backend;
 pub mod balls;
+pub mod effort;
 pub mod mesh;
 pub mod mesh_source;
 pub mod model;
@@ -13,6 +15,7 @@ pub mod ply;
 pub mod progress;
 pub mod sampling;
 pub mod scene;
+pub mod seen;
 pub mod source;
 pub mod stereo;
 pub mod tone;

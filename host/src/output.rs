@@ -1,9 +1,18 @@
 //! Writing files so that nothing is ever half written.
 
+mod aov_png;
+mod format;
+mod open_exr;
+mod png;
+mod rendering_files;
+
+pub use format::{Bits, Format, FormatError};
+pub use rendering_files::{RenderingFiles, Written};
+
+use self::png::{Pixels, Png};
 use crate::picture::Picture;
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder, ImageError};
-use std::fs;
+use crate::tone::Tone;
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
@@ -69,41 +78,49 @@ impl PictureFile {
         })
     }
 
-    /// Writes the picture as an sRGB-encoded PNG and gives the file its name.
+    /// Writes the picture as a toned, sRGB-encoded PNG of 8 bits and gives the file its name.
     ///
     /// # Errors
     /// [`OutputError::Io`], with nothing left behind and what was there before untouched.
-    pub fn save(self, picture: &Picture) -> Result<(), OutputError> {
-        self.save_rgb8(&picture.to_rgb8(), [picture.width, picture.height])
+    pub fn save(self, picture: &Picture, tone: &Tone) -> Result<(), OutputError> {
+        self.save_rgb8(&picture.to_rgb8(tone), [picture.width, picture.height])
     }
 
     /// As [`PictureFile::save`], from red, green and blue of each pixel, sRGB-encoded.
     ///
     /// # Errors
     /// As [`PictureFile::save`].
-    pub fn save_rgb8(self, pixels: &[u8], [width, height]: [u32; 2]) -> Result<(), OutputError> {
-        let failed = |source| OutputError::Io {
-            path: self.path.clone(),
-            source,
+    pub fn save_rgb8(mut self, pixels: &[u8], [width, height]: [u32; 2]) -> Result<(), OutputError> {
+        let png = Png {
+            width,
+            height,
+            pixels: Pixels::Rgb8(pixels.into()),
+            description: None,
         };
-        let mut writer = BufWriter::new(self.temporary.as_file());
-        let encoder = PngEncoder::new_with_quality(&mut writer, CompressionType::Default, FilterType::Adaptive);
-        encoder
-            .write_image(pixels, width, height, ExtendedColorType::Rgb8)
-            .map_err(|error| {
-                failed(match error {
-                    ImageError::IoError(source) => source,
-                    other => io::Error::other(other),
-                })
-            })?;
-        writer.flush().map_err(failed)?;
-        drop(writer);
-        self.temporary.as_file().sync_all().map_err(failed)?;
+        self.write(|writer| png.write(writer))?;
+        self.publish()
+    }
+
+    /// Writes what is to be in the file, all the way to the disk.
+    fn write(&mut self, content: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result<(), OutputError> {
+        let file = self.temporary.as_file();
+        let mut writer = BufWriter::new(file);
+        content(&mut writer)
+            .and_then(|()| writer.flush())
+            .and_then(|()| file.sync_all())
+            .map_err(|source| OutputError::Io {
+                path: self.path.clone(),
+                source,
+            })
+    }
+
+    /// Gives the file its name.
+    fn publish(self) -> Result<(), OutputError> {
         self.temporary
             .persist(&self.path)
             .map(drop)
             .map_err(|error| OutputError::Io {
-                path: self.path.clone(),
+                path: self.path,
                 source: error.error,
             })
     }
@@ -123,7 +140,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("picture.png");
         fs::write(&path, "old").unwrap();
-        PictureFile::create(&path).unwrap().save(&picture()).unwrap();
+        PictureFile::create(&path)
+            .unwrap()
+            .save(&picture(), &Tone::default())
+            .unwrap();
         let read = image::open(&path).unwrap().to_rgb8();
         assert_eq!(read.dimensions(), (2, 1));
         assert_eq!(read.get_pixel(0, 0).0, [188, 0, 0], "half the light is 188 of 255");

@@ -1,6 +1,7 @@
 //! Comparing what two back ends make of the same frame.
 
 use oktant::picture::Picture;
+use oktant::tone::Tone;
 use oktant_shared::hit::Hit;
 use std::fmt;
 
@@ -112,7 +113,8 @@ impl ColorDifferences {
             unwritten: unwritten(first) + unwritten(second),
             ..ColorDifferences::default()
         };
-        for (a, b) in first.to_rgb8().chunks(3).zip(second.to_rgb8().chunks(3)) {
+        let tone = Tone::default();
+        for (a, b) in first.to_rgb8(&tone).chunks(3).zip(second.to_rgb8(&tone).chunks(3)) {
             let difference = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
             differences.largest = differences.largest.max(difference);
             differences.off += usize::from(difference > Tolerance::CHANNEL);

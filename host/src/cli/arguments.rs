@@ -1,9 +1,11 @@
 //! What can stand on the command line.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use oktant::aov::Aov;
 use oktant::backend::BackendChoice;
 use oktant::backend::gpu::ModulePath;
 use oktant::octree::OctreeOptions;
+use oktant::output::Bits;
 use oktant::sampling::{Filter, Pattern, Samples};
 use oktant::stereo::{Stereo, StereoMode};
 use oktant::tone::Curve;
@@ -28,7 +30,7 @@ pub struct Arguments {
 pub enum Command {
     /// Look at a mesh in a window (H lists the keys).
     View(ViewArguments),
-    /// Render a picture of a mesh into a PNG file.
+    /// Render a picture of a mesh into a PNG or EXR file.
     Render(RenderArguments),
     /// Print the figures of a mesh and of its octree, and the adapters at hand.
     Info(InfoArguments),
@@ -59,9 +61,8 @@ pub struct ViewArguments {
 pub struct RenderArguments {
     #[command(flatten)]
     pub mesh: MeshArguments,
-    /// The picture: a PNG file. An existing one is replaced once the new one is complete.
-    #[arg(short, long, value_name = "OUT.png")]
-    pub output: PathBuf,
+    #[command(flatten)]
+    pub files: FileArguments,
     /// Size of the picture in pixels [default: as the scene says, else 1280x968].
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
@@ -72,6 +73,33 @@ pub struct RenderArguments {
     /// Render so many times and print the times of the kernel: median, least and greatest.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub repeat: u32,
+}
+
+/// Which files a picture becomes.
+#[derive(Debug, Args)]
+pub struct FileArguments {
+    /// The picture: a PNG file, or an EXR file, which holds the light as it is. An existing one is replaced once the new
+    /// one is complete. Of --stereo sequential the names get -left and -right at their ends.
+    #[arg(short, long, value_name = "OUT.png|OUT.exr")]
+    pub output: PathBuf,
+    /// Bits of each channel in a PNG file [default: 8].
+    #[arg(long, value_enum)]
+    pub bits: Option<Bits>,
+    /// What to write beside the colour, as layers of an EXR file or as files OUT-depth.png and so on beside a PNG file:
+    /// any of depth, normal, id, barycentrics, samples and rays, separated by commas, or all.
+    #[arg(long, value_name = "LIST|all", value_parser = aovs, default_value = "", hide_default_value = true)]
+    pub aov: Aovs,
+}
+
+impl FileArguments {
+    /// A picture and nothing else.
+    pub fn picture(output: impl Into<PathBuf>) -> Self {
+        FileArguments {
+            output: output.into(),
+            bits: None,
+            aov: Aovs::default(),
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -147,10 +175,10 @@ pub struct LookArguments {
     /// Depth that appears on the screen itself, scene units [default: what the camera looks at].
     #[arg(long, value_name = "UNITS", value_parser = length)]
     pub convergence: Option<f32>,
-    /// Brightness in stops: each doubles the light [default: 0].
+    /// Brightness in stops: each doubles the light; not for EXR files [default: 0].
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = exposure)]
     pub exposure: Option<f32>,
-    /// Curve that makes bright light fit the screen [default: none].
+    /// Curve that makes bright light fit the screen; not for EXR files [default: none].
     #[arg(long, value_enum)]
     pub tone: Option<Curve>,
 }
@@ -317,6 +345,27 @@ fn octree(text: &str) -> Result<Octree, String> {
     Ok(Octree(options))
 }
 
+/// What is to be told of pixels beside their colour, each once.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Aovs(pub Vec<Aov>);
+
+fn aovs(text: &str) -> Result<Aovs, String> {
+    let mut list = Vec::new();
+    for name in text.split(',').map(str::trim).filter(|name| !name.is_empty()) {
+        match Aov::ALL.into_iter().find(|aov| aov.name() == name) {
+            Some(aov) => list.push(aov),
+            None if name == "all" => list.extend(Aov::ALL),
+            None => {
+                let names = Aov::ALL.map(Aov::name).join(", ");
+                return Err(format!("give any of {names}, separated by commas, or all"));
+            }
+        }
+    }
+    list.sort();
+    list.dedup();
+    Ok(Aovs(list))
+}
+
 fn number(text: &str, least: f32, greatest: f32, wanted: &str) -> Result<f32, String> {
     match text.trim().parse::<f32>() {
         Ok(value) if (least..=greatest).contains(&value) => Ok(value),
@@ -384,6 +433,14 @@ mod tests {
         ] {
             assert!(size(bad).is_err(), "{bad}");
         }
+    }
+
+    #[test]
+    fn lists_of_aovs() {
+        assert_eq!(aovs("").unwrap().0, []);
+        assert_eq!(aovs("rays, depth,rays").unwrap().0, [Aov::Depth, Aov::Rays]);
+        assert_eq!(aovs("all").unwrap().0, Aov::ALL);
+        assert!(aovs("colour").unwrap_err().contains("barycentrics"));
     }
 
     #[test]

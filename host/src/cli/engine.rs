@@ -8,6 +8,7 @@ use oktant::picture::Picture;
 use oktant::progress::Progress;
 use oktant::scene::Scene;
 use oktant_shared::frame::Frame;
+use oktant_shared::hit::Hit;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -59,15 +60,26 @@ impl Engine {
 
     /// Renders a frame. Where nobody insisted on the GPU and it cannot, the CPU does, here and from now on.
     pub fn render(&mut self, frame: &Frame, progress: Progress<'_>) -> Result<Picture, BackendError> {
+        self.attempt(|backend| backend.render(frame, progress))
+    }
+
+    /// What the first sample of each pixel sees; by whom, as in [`Engine::render`].
+    pub fn hits(&mut self, frame: &Frame) -> Result<Vec<Hit>, BackendError> {
+        self.attempt(|backend| backend.hits(frame))
+    }
+
+    fn attempt<T>(&mut self, work: impl Fn(&mut dyn Backend) -> Result<T, BackendError>) -> Result<T, BackendError> {
         let result = match &mut self.kind {
-            Kind::Cpu(cpu) => cpu.render(frame, progress),
-            Kind::Gpu(gpu) => gpu.render(frame, progress),
+            Kind::Cpu(cpu) => work(cpu),
+            Kind::Gpu(gpu) => work(gpu),
         };
         match (result, self.fallback.take()) {
             (Err(error), Some(scene)) => {
                 eprintln!("{}", error.and_the_cpu_renders());
-                self.kind = Kind::Cpu(Cpu::new(scene));
-                self.render(frame, progress)
+                let mut cpu = Cpu::new(scene);
+                let result = work(&mut cpu);
+                self.kind = Kind::Cpu(cpu);
+                result
             }
             (result, fallback) => {
                 self.fallback = fallback;

@@ -1,18 +1,21 @@
 //! `oktant render`.
 
 use super::Failure;
-use super::arguments::{EngineArguments, LookArguments, MeshArguments, RenderArguments, Size};
+use super::arguments::{EngineArguments, FileArguments, LookArguments, MeshArguments, RenderArguments, Size};
 use super::engine::Engine;
 use super::progress_bar::ProgressBar;
-use oktant::output::PictureFile;
-use std::path::Path;
+use oktant::effort::Effort;
+use oktant::output::{Format, OutputError, RenderingFiles, Written};
+use oktant::seen::Seen;
+use oktant::stereo::StereoMode;
+use oktant::view::View;
 use std::sync::Arc;
 use std::time::Instant;
 
 pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     render(
         &arguments.mesh,
-        &arguments.output,
+        &arguments.files,
         arguments.size,
         &arguments.look,
         &arguments.engine,
@@ -20,30 +23,26 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     )
 }
 
-/// Renders a picture into a file and says what was done.
+/// Renders a picture into its files and says what was done.
 pub fn render(
     mesh: &MeshArguments,
-    output: &Path,
+    files: &FileArguments,
     size: Option<Size>,
     look: &LookArguments,
     engine: &EngineArguments,
     repeat: u32,
 ) -> Result<(), Failure> {
-    if !output
-        .extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("png"))
-    {
-        return Err(Failure::usage(format!(
-            "Pictures are PNG files: give {} a name that ends in .png.",
-            output.display()
-        )));
-    }
+    let format = format(files, look)?;
+    let aovs = files.aov.0.as_slice();
+    let create = |is_pair| RenderingFiles::create(&files.output, format, aovs, is_pair);
     // First of all, so that nobody waits for a picture that cannot be stored.
-    let file = PictureFile::create(output)?;
+    let mut output = create(look.stereo == Some(StereoMode::Sequential))?;
     let loaded = mesh.load()?;
     let triangles = loaded.triangles;
     let size = size.or(loaded.size.map(Size::from)).unwrap_or_default();
     let view = look.applied(loaded.view);
+    output = for_view(output, &view, create)?;
+    check_halves(&view, size)?;
     let scene = Arc::new(loaded.scene);
     let frame = view.frame(&scene, size.width, size.height);
     let mut engine = Engine::new(engine, &scene)?;
@@ -52,16 +51,30 @@ pub fn render(
     let picture = engine.render(&frame, &|stage, fraction| bar.show(stage, fraction))?;
     drop(bar);
     let seconds = start.elapsed().as_secs_f64();
-    file.save(&picture)?;
+    let effort = Effort::new(&picture);
+    let seen = if aovs.is_empty() {
+        Seen::default()
+    } else {
+        Seen::new(&frame, &scene, |frame| engine.hits(frame))?
+    };
+    let written = output.save(picture, seen, &view.tone)?;
     eprintln!(
         "{}: {} x {} pixels, {} each, {}, {}, {seconds:.3} s",
-        output.display(),
+        pictures(&written),
         size.width,
         size.height,
         counted(frame.sample_count as usize, "sample"),
         counted(triangles, "triangle"),
         engine.name(),
     );
+    for file in &written {
+        if let Some(description) = &file.description {
+            eprintln!("{}: {description}", file.path.display());
+        }
+    }
+    if !scene.is_plain() {
+        eprintln!("{}", told(&effort, seconds));
+    }
     if repeat > 1 {
         let mut times = engine.time_render(&frame, repeat)?;
         times.sort_by(f64::total_cmp);
@@ -75,6 +88,100 @@ pub fn render(
     Ok(())
 }
 
+/// The format that is asked for, if everything that is asked for goes with it.
+fn format(files: &FileArguments, look: &LookArguments) -> Result<Format, Failure> {
+    let format = Format::new(&files.output, files.bits).map_err(|error| Failure::usage(error.to_string()))?;
+    if format == Format::Exr && (look.exposure.is_some() || look.tone.is_some()) {
+        return Err(Failure::usage(format!(
+            "EXR files hold the light as it is: leave --exposure and --tone out, or give {} a name that ends in .png.",
+            files.output.display()
+        )));
+    }
+    Ok(format)
+}
+
+/// The files for as many eyes as a view has: a scene may say more than the command line did.
+fn for_view(
+    files: RenderingFiles,
+    view: &View,
+    create: impl Fn(bool) -> Result<RenderingFiles, OutputError>,
+) -> Result<RenderingFiles, OutputError> {
+    let is_pair = view.stereo.is_some_and(|stereo| stereo.mode == StereoMode::Sequential);
+    if files.is_pair() == is_pair {
+        Ok(files)
+    } else {
+        create(is_pair)
+    }
+}
+
+/// Screens take a picture for two eyes apart in its middle.
+fn check_halves(view: &View, size: Size) -> Result<(), Failure> {
+    let is_halved = view.stereo.is_some_and(|stereo| stereo.mode == StereoMode::SideBySide);
+    if is_halved && size.width % 2 == 1 {
+        return Err(Failure::usage(format!(
+            "Pictures side by side are equally wide, and {} pixels have no half: give --size {}x{}.",
+            size.width,
+            size.width + 1,
+            size.height
+        )));
+    }
+    Ok(())
+}
+
+/// Names of the pictures of the scene.
+fn pictures(written: &[Written]) -> String {
+    let pictures = written.iter().filter(|file| file.description.is_none());
+    let names: Vec<_> = pictures.map(|file| file.path.display().to_string()).collect();
+    names.join(" and ")
+}
+
+/// The rays that were traced, and a bound of what is missing for those that were not.
+fn told(effort: &Effort, seconds: f64) -> String {
+    format!(
+        "{:.2} million rays ({:.2} for closest hits, {:.2} for shadows), {:.2} million a second; rays that were cut off \
+         would add at most {} of the brightest light to a pixel, {} in the mean",
+        effort.rays() / 1e6,
+        effort.closest / 1e6,
+        effort.shadow / 1e6,
+        effort.rays() / 1e6 / seconds,
+        percent(effort.greatest_cut),
+        percent(effort.mean_cut),
+    )
+}
+
+/// A part of one, rounded up, so that a bound stays one.
+fn percent(part: f64) -> String {
+    format!("{:.2} %", (part * 1e4).ceil() / 1e2)
+}
+
 fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bounds_are_rounded_up() {
+        assert_eq!(percent(0.0), "0.00 %");
+        assert_eq!(percent(0.003_12), "0.32 %");
+        assert_eq!(percent(1e-9), "0.01 %");
+        assert_eq!(percent(1.0), "100.00 %");
+    }
+
+    #[test]
+    fn what_was_cut_is_told() {
+        let effort = Effort {
+            closest: 3e6,
+            shadow: 1.5e6,
+            greatest_cut: 0.0031,
+            mean_cut: 0.00001,
+        };
+        assert_eq!(
+            told(&effort, 0.5),
+            "4.50 million rays (3.00 for closest hits, 1.50 for shadows), 9.00 million a second; rays that were cut off \
+             would add at most 0.31 % of the brightest light to a pixel, 0.01 % in the mean"
+        );
+    }
 }

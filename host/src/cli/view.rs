@@ -1,11 +1,11 @@
 //! `oktant view`, and `oktant` alone.
 
 use super::Failure;
-use super::arguments::ViewArguments;
+use super::arguments::{FileArguments, ViewArguments};
 use super::render::render;
 use oktant::view::View;
 use oktant::viewer::{ViewerError, ViewerOptions};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The picture that stands in for the window where there is no display.
 const PICTURE: &str = "oktant.png";
@@ -29,7 +29,7 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
             eprintln!("There is no display to open a window on ({reason}): rendering {PICTURE} instead.");
             render(
                 &arguments.mesh,
-                Path::new(PICTURE),
+                &FileArguments::picture(PICTURE),
                 arguments.size,
                 &arguments.look,
                 &arguments.engine,

@@ -239,7 +239,7 @@ impl Worker {
                 Picture::of_sums(picture.width, picture.height, gpu.read_picture(&picture)?)
             }
         };
-        file.save(&picture)?;
+        file.save(&picture, &task.view.tone)?;
         Ok(path)
     }
 }

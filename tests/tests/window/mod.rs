@@ -237,7 +237,7 @@ pub fn offline(view: &View, size: [u32; 2]) -> Image {
     let picture = Cpu::new(SCENE.clone())
         .render(&frame, &silent)
         .expect("the CPU renders");
-    Image::from_raw(size[0], size[1], picture.to_rgb8()).expect("as many pixels as asked for")
+    Image::from_raw(size[0], size[1], picture.to_rgb8(&view.tone)).expect("as many pixels as asked for")
 }
 
 /// Share of the pixels none of whose channels differs by more than 1 of 255; 0 for pictures of different sizes.

@@ -1,0 +1,129 @@
+//! What a picture took, and what was left out of it.
+
+use crate::picture::Picture;
+use glam::Vec4;
+use rayon::prelude::*;
+
+/// Figures of a rendered picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Effort {
+    /// Rays that asked for their closest hit.
+    pub closest: f64,
+    /// Rays that asked whether a light is seen.
+    pub shadow: f64,
+    /// The weight of the rays that were not followed, in the pixel where it is greatest: what is missing there is at most
+    /// this part of the brightest light that a ray can meet.
+    pub greatest_cut: f64,
+    /// The same, in the mean of all pixels.
+    pub mean_cut: f64,
+}
+
+impl Effort {
+    /// Of a picture all of whose samples are taken.
+    pub fn new(picture: &Picture) -> Self {
+        let mut effort = picture
+            .sums
+            .par_iter()
+            .zip(&picture.work)
+            .map(|(sum, work)| {
+                let cut = cut(*sum, *work);
+                Effort {
+                    closest: f64::from(work.x),
+                    shadow: f64::from(work.y),
+                    greatest_cut: cut,
+                    mean_cut: cut,
+                }
+            })
+            .reduce(Effort::default, |a, b| Effort {
+                closest: a.closest + b.closest,
+                shadow: a.shadow + b.shadow,
+                greatest_cut: a.greatest_cut.max(b.greatest_cut),
+                mean_cut: a.mean_cut + b.mean_cut,
+            });
+        effort.mean_cut /= picture.sums.len().max(1) as f64;
+        effort
+    }
+
+    /// Both kinds of rays.
+    pub fn rays(&self) -> f64 {
+        self.closest + self.shadow
+    }
+}
+
+/// What was cut of a pixel, as a part of its light. Exact where all samples count alike; where a filter weights them, with
+/// at most 1 each, no less than what was cut.
+pub(crate) fn cut(sum: Vec4, work: Vec4) -> f64 {
+    if sum.w > 0.0 {
+        f64::from(work.z) / f64::from(sum.w)
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::backend::Backend;
+    use crate::backend::cpu::Cpu;
+    use crate::balls;
+    use crate::model::Model;
+    use crate::octree::OctreeOptions;
+    use crate::progress::silent;
+    use crate::sampling::{Filter, Samples};
+    use crate::scene::Scene;
+    use crate::view::View;
+    use glam::{Vec3, vec4};
+    use std::sync::Arc;
+
+    #[test]
+    fn pixels_are_summed_up() {
+        let picture = Picture {
+            work: vec![vec4(4.0, 8.0, 0.5, 0.0), vec4(6.0, 1.0, 0.0, 0.0), Vec4::ZERO],
+            ..Picture::of_sums(
+                3,
+                1,
+                vec![vec4(1.0, 1.0, 1.0, 4.0), vec4(0.0, 0.0, 0.0, 4.0), Vec4::ZERO],
+            )
+        };
+        assert_eq!(
+            Effort::new(&picture),
+            Effort {
+                closest: 10.0,
+                shadow: 9.0,
+                greatest_cut: 0.125,
+                mean_cut: 0.125 / 3.0,
+            }
+        );
+    }
+
+    /// Mirrors that reflect all in an environment of radiance 1: whatever is cut is missing in the picture.
+    #[test]
+    fn what_is_missing_is_what_was_cut() {
+        let mut model = Model::of_mesh(balls::balls());
+        model.materials[0].mirror = Vec3::ONE;
+        (model.materials[0].diffuse, model.materials[0].ambient) = (0.0, 0.0);
+        model.materials[0].specular = Vec3::ZERO;
+        model.environment = oktant_shared::environment::Environment::constant(Vec3::ONE);
+        let scene = Arc::new(Scene::of_model(model, &OctreeOptions::default(), &silent).unwrap());
+        for filter in [Filter::Box, Filter::Tent] {
+            let view = View {
+                depth: 1,
+                samples: Samples::Four,
+                filter,
+                ..View::default()
+            };
+            let picture = Cpu::new(scene.clone())
+                .render(&view.frame(&scene, 64, 48), &silent)
+                .unwrap();
+            let effort = Effort::new(&picture);
+            assert!(effort.greatest_cut > 0.1 && effort.mean_cut < 0.1, "{effort:?}");
+            assert!(effort.closest >= 64.0 * 48.0 * 4.0);
+            for (sum, work) in picture.sums.iter().zip(&picture.work) {
+                let missing = 1.0 - f64::from(sum.x / sum.w);
+                let cut = cut(*sum, *work);
+                assert!(missing <= cut + 1e-5, "{missing} is missing, {cut} was cut");
+                assert!(filter != Filter::Box || (missing - cut).abs() < 1e-5, "{missing} {cut}");
+            }
+        }
+    }
+}
