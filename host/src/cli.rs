@@ -1,6 +1,7 @@
 //! The command line: arguments, and one file for each command.
 
 mod arguments;
+mod check;
 mod engine;
 mod info;
 mod progress_bar;
@@ -30,6 +31,7 @@ pub fn run() -> ExitCode {
     let result = match arguments.command.unwrap_or(Command::View(ViewArguments::default())) {
         Command::View(arguments) => view::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Completions { shell } => {
             let mut completions = Vec::new();

@@ -4,6 +4,7 @@ use crate::balls::balls;
 use crate::mesh::Mesh;
 use crate::ply::{self, PlyError};
 use crate::progress::Progress;
+use crate::shapes::stadium;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -18,6 +19,8 @@ pub enum MeshSource {
     Bunny,
     /// Seven balls, 4,032 triangles, made by code.
     Balls,
+    /// A room 200 m long with stands, 55,680 triangles, made by code.
+    Stadium,
     /// A PLY file.
     File(PathBuf),
 }
@@ -29,6 +32,7 @@ impl MeshSource {
             None => MeshSource::Bunny,
             Some(path) if path == Path::new("bunny") => MeshSource::Bunny,
             Some(path) if path == Path::new("balls") => MeshSource::Balls,
+            Some(path) if path == Path::new("stadium") => MeshSource::Stadium,
             Some(path) => MeshSource::File(path.to_path_buf()),
         }
     }
@@ -41,6 +45,7 @@ impl MeshSource {
         let mesh = match self {
             MeshSource::Bunny => ply::parse(BUNNY, "the built-in bunny", progress)?,
             MeshSource::Balls => balls(),
+            MeshSource::Stadium => stadium(),
             MeshSource::File(path) => ply::read(path, progress)?,
         };
         Ok(mesh.with_normals())
@@ -52,6 +57,7 @@ impl fmt::Display for MeshSource {
         match self {
             MeshSource::Bunny => f.write_str("bunny"),
             MeshSource::Balls => f.write_str("balls"),
+            MeshSource::Stadium => f.write_str("stadium"),
             MeshSource::File(path) => write!(f, "{}", path.display()),
         }
     }

@@ -64,7 +64,13 @@ pub fn plain_material() -> Material {
 }
 
 /// The colour of meshes that have none, linear RGB.
-const CLAY: Vec3 = Vec3::new(0.62, 0.58, 0.53);
+pub const CLAY: Vec3 = Vec3::new(0.62, 0.58, 0.53);
+
+/// What is around meshes alone, linear RGB.
+pub const DARK: Vec3 = Vec3::new(0.045, 0.06, 0.085);
+
+/// Ambient light where nobody says how much, linear RGB.
+pub const AMBIENT: Vec3 = Vec3::splat(0.12);
 
 impl Model {
     /// A mesh alone: of clay unless it has colours, before a dark background, with one light.
@@ -81,8 +87,8 @@ impl Model {
             lights: vec![white_light()],
             textures: Vec::new(),
             texels: Vec::new(),
-            environment: Environment::constant(Vec3::new(0.045, 0.06, 0.085)),
-            ambient: Vec3::splat(0.12),
+            environment: Environment::constant(DARK),
+            ambient: AMBIENT,
             focus: None,
         }
     }

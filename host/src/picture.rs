@@ -6,6 +6,11 @@ use oktant_shared::color::srgb_from_linear;
 use oktant_shared::present::mean_color;
 use rayon::prelude::*;
 
+/// Pictures have no more pixels than this in a row or column.
+pub const LARGEST_SIDE: u32 = 32_768;
+/// Pictures have no more pixels than this: they must fit into memory.
+pub const LARGEST_PICTURE: u64 = 1 << 28;
+
 /// Sums of samples, row by row from the upper left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {

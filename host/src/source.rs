@@ -4,6 +4,7 @@ use crate::mesh_source::MeshSource;
 use crate::model::Model;
 use crate::ply::PlyError;
 use crate::progress::Progress;
+use crate::scene_file::{self, SceneFileError};
 use crate::view::View;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -17,6 +18,8 @@ pub struct Setting {
     pub view: View,
     /// Width and height of the picture in pixels, where the scene says so.
     pub size: Option<[u32; 2]>,
+    /// The files that it was read from: where one of them changes, it may look different.
+    pub files: Vec<PathBuf>,
 }
 
 /// Something that can be looked at.
@@ -24,6 +27,8 @@ pub struct Setting {
 pub enum Source {
     /// A mesh alone.
     Mesh(MeshSource),
+    /// A scene file.
+    Scene(PathBuf),
 }
 
 /// Why there is nothing to look at.
@@ -32,6 +37,9 @@ pub enum SourceError {
     /// The mesh cannot be had.
     #[error(transparent)]
     Mesh(#[from] PlyError),
+    /// The scene file cannot be used.
+    #[error(transparent)]
+    Scene(#[from] SceneFileError),
 }
 
 impl Default for Source {
@@ -43,12 +51,19 @@ impl Default for Source {
 impl Source {
     /// What a person means who names something on the command line, or nothing.
     pub fn from_argument(argument: Option<&Path>) -> Self {
-        Source::Mesh(MeshSource::from_argument(argument))
+        match argument {
+            Some(path) if is_scene(path) => Source::Scene(path.to_path_buf()),
+            _ => Source::Mesh(MeshSource::from_argument(argument)),
+        }
     }
 
     /// What a file holds, by its name.
     pub fn from_path(path: PathBuf) -> Self {
-        Source::Mesh(MeshSource::File(path))
+        if is_scene(&path) {
+            Source::Scene(path)
+        } else {
+            Source::Mesh(MeshSource::File(path))
+        }
     }
 
     /// Loads it.
@@ -61,7 +76,12 @@ impl Source {
                 model: Model::of_mesh(mesh.load(progress)?),
                 view: View::default(),
                 size: None,
+                files: match mesh {
+                    MeshSource::File(path) => vec![path.clone()],
+                    _ => Vec::new(),
+                },
             },
+            Source::Scene(path) => scene_file::read(path, progress)?,
         })
     }
 }
@@ -70,6 +90,13 @@ impl fmt::Display for Source {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Source::Mesh(mesh) => mesh.fmt(f),
+            Source::Scene(path) => write!(f, "{}", path.display()),
         }
     }
+}
+
+/// Scene files end in `.toml`.
+fn is_scene(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
 }

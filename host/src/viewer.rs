@@ -14,7 +14,6 @@ mod gpu_screen;
 mod grammar;
 mod input;
 mod loader;
-mod nearest;
 mod news;
 mod notice;
 mod opener;

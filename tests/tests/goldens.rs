@@ -56,7 +56,12 @@ fn picture(path: &Path, backend: impl FnOnce(&Arc<Scene>) -> Box<dyn Backend>) -
     let scene = Arc::new(Scene::of_model(setting.model, &OctreeOptions::default(), &silent).unwrap());
     let frame = setting.view.frame(&scene, SIZE[0], SIZE[1]);
     let picture = backend(&scene).render(&frame, &silent).unwrap();
-    assert!(picture.sums.iter().all(|sum| sum.is_finite() && sum.w > 0.0 && sum.min_element() >= 0.0));
+    assert!(
+        picture
+            .sums
+            .iter()
+            .all(|sum| sum.is_finite() && sum.w > 0.0 && sum.min_element() >= 0.0)
+    );
     RgbImage::from_raw(SIZE[0], SIZE[1], picture.to_rgb8(&setting.view.tone)).unwrap()
 }
 
@@ -95,7 +100,11 @@ fn compare(path: &Path, actual: &RgbImage, tolerance: &Tolerance, who: &str) -> 
     };
     let part = outliers(&expected, actual, tolerance.step);
     let name = golden.file_stem().unwrap().to_str().unwrap();
-    println!("{name} on {who}: {:.3} % of the pixels off by more than {}", part * 100.0, tolerance.step);
+    println!(
+        "{name} on {who}: {:.3} % of the pixels off by more than {}",
+        part * 100.0,
+        tolerance.step
+    );
     if part <= tolerance.outliers {
         return None;
     }
@@ -103,7 +112,11 @@ fn compare(path: &Path, actual: &RgbImage, tolerance: &Tolerance, who: &str) -> 
     std::fs::create_dir_all(&folder).unwrap();
     let shown = folder.join(format!("{name}-{who}.png"));
     side_by_side(&expected, actual).save(&shown).unwrap();
-    Some(format!("{name} on {who}: {:.3} % of the pixels are off, see {}", part * 100.0, shown.display()))
+    Some(format!(
+        "{name} on {who}: {:.3} % of the pixels are off, see {}",
+        part * 100.0,
+        shown.display()
+    ))
 }
 
 #[test]
@@ -153,7 +166,10 @@ fn no_golden_is_left_over() {
         .map(|path| path.canonicalize().unwrap())
         .collect();
     goldens.sort();
-    let wanted: Vec<PathBuf> = scenes().iter().map(|path| golden(path).canonicalize().unwrap()).collect();
+    let wanted: Vec<PathBuf> = scenes()
+        .iter()
+        .map(|path| golden(path).canonicalize().unwrap())
+        .collect();
     assert_eq!(goldens, wanted);
 }
 

@@ -6,6 +6,7 @@ use oktant::backend::BackendChoice;
 use oktant::backend::gpu::ModulePath;
 use oktant::octree::OctreeOptions;
 use oktant::output::Bits;
+use oktant::picture::{LARGEST_PICTURE, LARGEST_SIDE};
 use oktant::sampling::{Filter, Pattern, Samples};
 use oktant::stereo::{Stereo, StereoMode};
 use oktant::tone::Curve;
@@ -32,6 +33,8 @@ pub enum Command {
     View(ViewArguments),
     /// Render a picture of a mesh into a PNG or EXR file.
     Render(RenderArguments),
+    /// Read scene files with all that they refer to, and say what is in them, or what is wrong.
+    Check(CheckArguments),
     /// Print the figures of a mesh and of its octree, and the adapters at hand.
     Info(InfoArguments),
     /// Print the completions of a shell, for example: oktant completions bash > ~/.bash_completion
@@ -39,6 +42,13 @@ pub enum Command {
         /// The shell.
         shell: clap_complete::Shell,
     },
+}
+
+#[derive(Debug, Args)]
+pub struct CheckArguments {
+    /// Scene files; docs/scene-files.md describes them.
+    #[arg(value_name = "SCENE.toml", required = true)]
+    pub scenes: Vec<PathBuf>,
 }
 
 #[derive(Debug, Default, Args)]
@@ -297,10 +307,6 @@ impl From<[u32; 2]> for Size {
         Size { width, height }
     }
 }
-
-/// More pixels than this in a row or column, or in all, are refused: a picture must fit into memory.
-const LARGEST_SIDE: u32 = 32_768;
-const LARGEST_PICTURE: u64 = 1 << 28;
 
 fn size(text: &str) -> Result<Size, String> {
     let wanted = "give width and height in pixels, for example 1280x968";

@@ -154,7 +154,8 @@ fn percent(part: f64) -> String {
     format!("{:.2} %", (part * 1e4).ceil() / 1e2)
 }
 
-fn counted(count: usize, noun: &str) -> String {
+/// A number with its noun.
+pub fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 

@@ -1,8 +1,8 @@
 //! The words of a script's lines. docs/viewer.md describes them.
 
 use super::event::{Button, Key};
-use super::nearest::nearest;
 use super::step::{Expectation, Step};
+use crate::nearest::nearest;
 use std::path::PathBuf;
 
 const STEPS: [&str; 14] = [

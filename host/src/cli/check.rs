@@ -1,0 +1,33 @@
+//! `oktant check`.
+
+use super::Failure;
+use super::arguments::CheckArguments;
+use super::progress_bar::ProgressBar;
+use super::render::counted;
+use oktant::octree::OctreeOptions;
+use oktant::scene::Scene;
+use oktant::scene_file::{self, SceneFileError};
+
+/// Reads each scene file with all that it refers to and builds its octree, and says what is in it.
+pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
+    for path in &arguments.scenes {
+        let bar = ProgressBar::new();
+        let progress = |stage, fraction| bar.show(stage, fraction);
+        let setting = scene_file::read(path, &progress)?;
+        let model = setting.model;
+        let counts = [
+            counted(model.mesh.triangles.len(), "triangle"),
+            counted(model.planes.len(), "plane"),
+            counted(model.materials.len(), "material"),
+            counted(model.lights.len(), "light"),
+            counted(model.textures.len(), "texture"),
+        ];
+        Scene::of_model(model, &OctreeOptions::default(), &progress).map_err(|error| SceneFileError::Build {
+            path: path.clone(),
+            error,
+        })?;
+        drop(bar);
+        super::print(&format!("{}: {}: ok\n", path.display(), counts.join(", ")))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,217 @@
+//! Putting the parts of a scene together.
+
+use super::description::Description;
+use super::fault::{Fault, Reason};
+use super::material::Palette;
+use super::place::Place;
+use super::texture::Textures;
+use crate::mesh::Mesh;
+use crate::mesh_source::MeshSource;
+use crate::model::{AMBIENT, Focus, Model};
+use crate::progress::Progress;
+use crate::source::Setting;
+use crate::transform::Transform;
+use crate::view::View;
+use glam::{DMat3, DVec3, Vec2, Vec3};
+use oktant_shared::material::Material;
+use oktant_shared::orbit::Up;
+use oktant_shared::plane::PLANE;
+use oktant_shared::texture::NO_TEXTURE;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Triangles and vertices have at most so many ids.
+const MOST: usize = PLANE as usize;
+
+/// A scene in the making.
+pub struct Assembly<'a> {
+    /// Paths in the file are relative to this.
+    pub folder: &'a Path,
+    /// Who hears of the meshes that are read.
+    pub progress: Progress<'a>,
+    /// Which axis points up.
+    pub up: Up,
+    /// The materials.
+    pub palette: Palette,
+    /// All meshes so far in one.
+    mesh: Mesh,
+    /// Index of the material for each triangle.
+    material_ids: Vec<u32>,
+    /// Meshes that were read; many copies of one are read once.
+    read: Vec<(MeshSource, Arc<Mesh>)>,
+    /// Files that were read.
+    files: Vec<PathBuf>,
+}
+
+/// Makes the scene that a file describes.
+///
+/// # Errors
+/// The first thing that is wrong.
+pub fn assemble(description: &Description, folder: &Path, progress: Progress<'_>) -> Result<Setting, Fault> {
+    let up = description.up.into();
+    let mut textures = Textures::read(&description.textures, folder)?;
+    let environment = description.environment.build(&mut textures, folder, up)?;
+    let mut assembly = Assembly {
+        folder,
+        progress,
+        up,
+        palette: Palette::new(&description.materials, &textures)?,
+        mesh: Mesh::default(),
+        material_ids: Vec::new(),
+        read: Vec::new(),
+        files: Vec::new(),
+    };
+    macro_rules! add_all {
+        ($($parts:expr, $key:literal;)*) => {$(
+            for (i, part) in $parts.iter().enumerate() {
+                part.add_to(&mut assembly, &Place::of($key).index(i))?;
+            }
+        )*};
+    }
+    add_all! {
+        description.mesh, "mesh";
+        description.sphere, "sphere";
+        description.cuboid, "box";
+        description.quad, "quad";
+        description.checkerboard, "checkerboard";
+        description.lathe, "lathe";
+    }
+    let mut planes = Vec::new();
+    for (i, plane) in description.plane.iter().enumerate() {
+        planes.push(plane.build(&mut assembly, &Place::of("plane").index(i))?);
+    }
+    if planes.is_empty() && assembly.mesh.triangles.is_empty() {
+        return Err(Fault::new(&Place::ROOT, Reason::Empty));
+    }
+    let whole = bounding_sphere(&assembly.mesh);
+    let mut view = View { up, ..View::default() };
+    let focus = description.camera.apply(&mut view, whole)?;
+    description.render.apply(&mut view)?;
+    view.stereo = description.stereo.as_ref().map(|stereo| stereo.build());
+    let lights = super::light::build_all(description.light.as_deref(), &mut view, focus.unwrap_or(whole))?;
+    let materials = assembly.palette.into_used();
+    let mut files = assembly.files;
+    files.extend(textures.files);
+    files.sort();
+    files.dedup();
+    Ok(Setting {
+        model: Model {
+            mesh: assembly.mesh,
+            material_ids: if materials.len() > 1 {
+                assembly.material_ids
+            } else {
+                Vec::new()
+            },
+            materials,
+            planes,
+            lights,
+            textures: textures.textures,
+            texels: textures.texels,
+            environment,
+            ambient: description.ambient.map_or(AMBIENT, |color| color.0),
+            focus,
+        },
+        view,
+        size: description.render.size(),
+        files,
+    })
+}
+
+/// A sphere around a mesh; the unit sphere where there is none.
+fn bounding_sphere(mesh: &Mesh) -> Focus {
+    let (low, high) = mesh.bounds().unwrap_or((Vec3::NEG_ONE, Vec3::ONE));
+    let radius = (high - low).length() / 2.0;
+    Focus {
+        center: (low + high) / 2.0,
+        radius: if radius > 0.0 { radius } else { 1.0 },
+    }
+}
+
+impl Assembly<'_> {
+    /// Loads a mesh, once.
+    pub fn load(&mut self, source: MeshSource, place: &Place) -> Result<Arc<Mesh>, Fault> {
+        if let Some((_, mesh)) = self.read.iter().find(|(known, _)| *known == source) {
+            return Ok(mesh.clone());
+        }
+        let mesh = source
+            .load(self.progress)
+            .map_err(|error| Fault::new(place, Reason::Mesh(Box::new(error))))?;
+        if let MeshSource::File(path) = &source {
+            self.files.push(path.clone());
+        }
+        let mesh = Arc::new(mesh);
+        self.read.push((source, mesh.clone()));
+        Ok(mesh)
+    }
+
+    /// The transform of a shape made with y up: turned by `degrees` about its own axes x, y, z, then put where the scene
+    /// has its up, then moved.
+    pub fn placed(&self, degrees: DVec3, translation: DVec3) -> Transform {
+        let turned = Transform::new(DVec3::ONE, degrees, DVec3::ZERO);
+        Transform {
+            linear: DMat3::from_cols_array_2d(&self.up.axes().map(|axis| axis.as_dvec3().to_array())) * turned.linear,
+            translation,
+        }
+    }
+
+    /// Adds a mesh of one material.
+    pub fn add(&mut self, place: &Place, mesh: Mesh, transform: &Transform, material: u32) -> Result<(), Fault> {
+        let ids = vec![material; mesh.triangles.len()];
+        self.add_mixed(place, mesh, transform, &ids)
+    }
+
+    /// Adds a mesh, with a material for each of its triangles.
+    pub fn add_mixed(
+        &mut self,
+        place: &Place,
+        mesh: Mesh,
+        transform: &Transform,
+        materials: &[u32],
+    ) -> Result<(), Fault> {
+        if mesh.coordinates.is_empty()
+            && let Some(id) = materials.iter().find(|id| needs_coordinates(self.palette.get(**id)))
+        {
+            let name = self.palette.name(*id).to_string();
+            return Err(Fault::new(place, Reason::NoCoordinates(name)));
+        }
+        let mesh = transform
+            .apply(mesh)
+            .ok_or_else(|| Fault::new(place, Reason::TooLarge))?;
+        self.material_ids.extend_from_slice(materials);
+        join(&mut self.mesh, mesh);
+        if self.mesh.positions.len().max(self.mesh.triangles.len()) > MOST {
+            return Err(Fault::new(place, Reason::TooMany(MOST)));
+        }
+        Ok(())
+    }
+}
+
+fn needs_coordinates(material: &Material) -> bool {
+    material.texture != NO_TEXTURE || material.bump != NO_TEXTURE
+}
+
+/// Adds a mesh with normals to another one. Where only one of them has colours or texture coordinates, the vertices of
+/// the other one are white, or at (0, 0).
+fn join(all: &mut Mesh, mesh: Mesh) {
+    let first = all.positions.len();
+    let count = first + mesh.positions.len();
+    if !mesh.colors.is_empty() || !all.colors.is_empty() {
+        all.colors.resize(first, [255; 4]);
+        all.colors.extend(mesh.colors);
+        all.colors.resize(count, [255; 4]);
+    }
+    if !mesh.coordinates.is_empty() || !all.coordinates.is_empty() {
+        all.coordinates.resize(first, Vec2::ZERO);
+        all.coordinates.extend(mesh.coordinates);
+        all.coordinates.resize(count, Vec2::ZERO);
+    }
+    all.positions.extend(mesh.positions);
+    all.normals.extend(mesh.normals);
+    // Ids beyond the range are refused by who asked for this.
+    let first = first as u32;
+    all.triangles.extend(
+        mesh.triangles
+            .iter()
+            .map(|corners| corners.map(|corner| corner.wrapping_add(first))),
+    );
+}

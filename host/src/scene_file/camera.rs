@@ -1,0 +1,74 @@
+//! From where the picture is taken.
+
+use super::fault::{Fault, Reason};
+use super::number::{Degrees, Elevation, FieldOfView, Length};
+use super::place::Place;
+use super::vector::Vector;
+use crate::model::Focus;
+use crate::view::{self, View};
+use glam::Vec3;
+use serde::Deserialize;
+
+/// `[camera]`: where the camera is and what it looks at. Its place is given as `position`, or as the angles `azimuth` and
+/// `elevation` and the `distance` from what it looks at.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Camera {
+    /// Where it is, scene units.
+    pub position: Option<Vector>,
+    /// The point that it looks at and circles, scene units. Default: the middle of the box around all triangles.
+    pub look_at: Option<Vector>,
+    /// Where it stands instead, degrees: 0 in front, counterclockwise seen from above. Default: 0.
+    pub azimuth: Option<Degrees>,
+    /// How high it stands, degrees above the horizon, -90 to 90. Default: 15.
+    pub elevation: Option<Elevation>,
+    /// How far it is from what it looks at, scene units. Default: 2.8 radii of the sphere around all triangles.
+    pub distance: Option<Length>,
+    /// Vertical field of view, degrees, 1 to 170. Default: 40.
+    pub fov: Option<FieldOfView>,
+}
+
+impl Camera {
+    /// Points the view, and says what it is about where the file says more than a direction: the sphere around what is
+    /// looked at that just fits. `whole` is a sphere around everything.
+    pub fn apply(&self, view: &mut View, whole: Focus) -> Result<Option<Focus>, Fault> {
+        let place = Place::of("camera");
+        if let Some(fov) = self.fov {
+            view.field_of_view = fov.0;
+        }
+        if let Some(azimuth) = self.azimuth {
+            view.camera.azimuth = azimuth.0;
+        }
+        if let Some(elevation) = self.elevation {
+            view.camera.elevation = elevation.0;
+        }
+        let center = self.look_at.map_or(whole.center, |point| point.0.as_vec3());
+        let distance = match self.position {
+            Some(position) => {
+                for (key, is_there) in [
+                    ("azimuth", self.azimuth.is_some()),
+                    ("elevation", self.elevation.is_some()),
+                    ("distance", self.distance.is_some()),
+                ] {
+                    if is_there {
+                        return Err(Fault::new(&place.key(key), Reason::Excludes("position")));
+                    }
+                }
+                let offset = (position.0 - center.as_dvec3()).as_vec3();
+                if offset == Vec3::ZERO {
+                    return Err(Fault::new(&place.key("position"), Reason::NoDirection));
+                }
+                view.camera = view::Place::at(offset, 1.0, view.up);
+                offset.length()
+            }
+            None => match self.distance {
+                Some(distance) => distance.0,
+                None if self.look_at.is_none() => return Ok(None),
+                None => view.camera.distance * whole.radius,
+            },
+        };
+        let radius = distance * (view.field_of_view / 2.0).to_radians().sin();
+        view.camera.distance = distance / radius;
+        Ok(Some(Focus { center, radius }))
+    }
+}

@@ -1,0 +1,209 @@
+//! What is wrong with a scene file, and where.
+
+use super::place::{Place, Step};
+use crate::nearest::nearest;
+use crate::ply::PlyError;
+use image::ImageError;
+use serde::de::{Error, Expected, Unexpected};
+use std::fmt::{self, Display};
+use std::path::PathBuf;
+
+/// Something wrong at a place of a scene file.
+#[derive(Debug)]
+pub struct Fault {
+    /// Where.
+    pub place: Place,
+    /// What.
+    pub reason: Reason,
+}
+
+/// What is wrong with the thing at a place. Each is said as a predicate, whose subject is the place.
+#[derive(Debug, thiserror::Error)]
+pub enum Reason {
+    /// A value of another type, or out of range.
+    #[error("is {found}; give {expected}")]
+    Unexpected {
+        /// The value as it stands in the file; filled in by whoever has the file.
+        found: String,
+        /// What it should be.
+        expected: String,
+    },
+    /// A field that there is not.
+    #[error("has no field \"{name}\"; {}", advice(name, valid))]
+    UnknownField {
+        /// As written.
+        name: String,
+        /// All that there are.
+        valid: Vec<String>,
+    },
+    /// A name of nothing.
+    #[error("is \"{name}\", but there is no such {what}; {}", advice(name, valid))]
+    UnknownName {
+        /// As written.
+        name: String,
+        /// Of what it should be the name.
+        what: &'static str,
+        /// All names that there are.
+        valid: Vec<String>,
+    },
+    /// Nothing says what only a person can.
+    #[error("lacks {0}; add it")]
+    Lacks(&'static str),
+    /// Two fields that say the same.
+    #[error("does not go together with {0}; leave one of them out")]
+    Excludes(&'static str),
+    /// A field of something else.
+    #[error("means nothing for {0}; leave it out")]
+    Inapplicable(&'static str),
+    /// More light leaves a surface than arrives.
+    #[error(
+        "reflects and transmits {part} of the light in {channel} (diffuse * base + mirror + transmission); \
+         lower them to 1 in all"
+    )]
+    Energy {
+        /// Above 1.
+        part: f32,
+        /// "red", "green" or "blue".
+        channel: &'static str,
+    },
+    /// The camera looks at itself.
+    #[error("is also what the camera looks at; move one of them")]
+    NoDirection,
+    /// A vector without length, or edges along each other.
+    #[error("has no area; let its edges point in different directions")]
+    NoArea,
+    /// A box inside out.
+    #[error("is not below high in every coordinate; exchange them")]
+    NotBelow,
+    /// An outline beyond its axis.
+    #[error("has a radius below 0; give 0 and up")]
+    NegativeRadius,
+    /// An outline that stands still.
+    #[error("has the same point twice in a row; leave one of them out")]
+    SamePoint,
+    /// A picture that does not fit into memory.
+    #[error("makes a picture of more than {0} pixels; make it smaller")]
+    TooManyPixels(u64),
+    /// Nothing to see.
+    #[error("has nothing to see; add a [[mesh]], [[sphere]], [[box]] or another shape")]
+    Empty,
+    /// A texture on nothing to hold it by.
+    #[error("has no texture coordinates, which the texture of material \"{0}\" needs; take another material")]
+    NoCoordinates(String),
+    /// Coordinates that lead to overflow.
+    #[error("reaches further than 1e15 from the origin; bring it nearer or make it smaller")]
+    TooLarge,
+    /// More than ids can count.
+    #[error("makes more than {0} triangles or vertices in all; leave something out")]
+    TooMany(usize),
+    /// A mesh that cannot be read.
+    #[error("cannot be used: {0}")]
+    Mesh(Box<PlyError>),
+    /// An image that cannot be read.
+    #[error("cannot be used: {} is no image that can be read ({reason}); give a PNG, JPEG, HDR or EXR file", path.display())]
+    Image {
+        /// The image.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: ImageError,
+    },
+    /// An image that is not there.
+    #[error("cannot be used: {} cannot be read ({reason}); check the path", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: std::io::Error,
+    },
+    /// Images larger than a GPU takes.
+    #[error("has too many pixels: all images together may have {0}; make it smaller")]
+    TooManyTexels(usize),
+    /// Anything that serde says.
+    #[error("cannot be used: {0}")]
+    Other(String),
+}
+
+/// What to do about a name that there is not.
+fn advice(name: &str, valid: &[String]) -> String {
+    let valid: Vec<_> = valid.iter().map(String::as_str).collect();
+    match (nearest(name, &valid), valid.as_slice()) {
+        (Some(near), _) => format!("did you mean \"{near}\"?"),
+        (None, []) => "there are none".into(),
+        (None, [only]) => format!("there is only \"{only}\""),
+        (None, [first @ .., last]) => format!("there are {} and {last}", first.join(", ")),
+    }
+}
+
+impl Fault {
+    /// A fault at a place.
+    pub fn new(place: &Place, reason: Reason) -> Self {
+        Fault {
+            place: place.clone(),
+            reason,
+        }
+    }
+
+    /// A value that is not what it should be.
+    pub fn unexpected(expected: impl Display) -> Self {
+        Fault {
+            place: Place::ROOT,
+            reason: Reason::Unexpected {
+                found: String::new(),
+                expected: expected.to_string(),
+            },
+        }
+    }
+
+    /// The same fault, seen from one step further up.
+    pub fn inside(mut self, step: Step) -> Self {
+        self.place.prepend(step);
+        self
+    }
+}
+
+impl Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.place, self.reason)
+    }
+}
+
+impl std::error::Error for Fault {}
+
+impl Error for Fault {
+    fn custom<T: Display>(message: T) -> Self {
+        Fault::new(&Place::ROOT, Reason::Other(message.to_string()))
+    }
+
+    fn invalid_type(_: Unexpected<'_>, expected: &dyn Expected) -> Self {
+        Fault::unexpected(expected)
+    }
+
+    fn invalid_value(_: Unexpected<'_>, expected: &dyn Expected) -> Self {
+        Fault::unexpected(expected)
+    }
+
+    fn invalid_length(_: usize, expected: &dyn Expected) -> Self {
+        Fault::unexpected(expected)
+    }
+
+    fn unknown_variant(variant: &str, expected: &'static [&'static str]) -> Self {
+        let reason = Reason::UnknownName {
+            name: variant.into(),
+            what: "choice",
+            valid: expected.iter().map(|name| (*name).into()).collect(),
+        };
+        Fault::new(&Place::ROOT, reason)
+    }
+
+    fn unknown_field(field: &str, expected: &'static [&'static str]) -> Self {
+        let reason = Reason::UnknownField {
+            name: field.into(),
+            valid: expected.iter().map(|name| (*name).into()).collect(),
+        };
+        Fault::new(&Place::ROOT, reason)
+    }
+
+    fn missing_field(field: &'static str) -> Self {
+        Fault::new(&Place::ROOT, Reason::Lacks(field))
+    }
+}
