@@ -67,3 +67,46 @@ impl Transform {
         Some(mesh)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{Vec3, dvec3, vec3};
+
+    fn triangle() -> Mesh {
+        Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            triangles: vec![[0, 1, 2]],
+            normals: vec![Vec3::Z; 3],
+            shift: dvec3(1e6, 0.0, 0.0),
+            ..Mesh::default()
+        }
+    }
+
+    #[test]
+    fn a_mirror_image_keeps_its_front() {
+        let mirror = Transform::new(dvec3(1.0, 1.0, -3.0), DVec3::ZERO, dvec3(-1e6, 0.0, 0.25));
+        let mesh = mirror.apply(triangle()).unwrap();
+        assert_eq!(
+            mesh.positions,
+            [vec3(0.0, 0.0, 0.25), vec3(1.0, 0.0, 0.25), vec3(0.0, 1.0, 0.25)]
+        );
+        assert_eq!((mesh.normals[0], mesh.triangles[0]), (Vec3::NEG_Z, [0, 2, 1]));
+        assert_eq!(mesh.shift, DVec3::ZERO);
+    }
+
+    #[test]
+    fn turns_are_counterclockwise_and_in_order() {
+        let turned = |x, y, z| Transform::new(DVec3::ONE, dvec3(x, y, z), DVec3::ZERO).linear;
+        assert!((turned(90.0, 0.0, 0.0) * DVec3::Y).abs_diff_eq(DVec3::Z, 1e-12));
+        assert!((turned(0.0, 90.0, 0.0) * DVec3::Z).abs_diff_eq(DVec3::X, 1e-12));
+        assert!((turned(0.0, 0.0, 90.0) * DVec3::X).abs_diff_eq(DVec3::Y, 1e-12));
+        assert!((turned(90.0, 90.0, 0.0) * DVec3::Y).abs_diff_eq(DVec3::X, 1e-12));
+    }
+
+    #[test]
+    fn what_would_overflow_is_refused() {
+        let far = Transform::new(DVec3::splat(1e9), DVec3::ZERO, DVec3::ZERO);
+        assert_eq!(far.apply(triangle()), None);
+    }
+}

@@ -36,12 +36,17 @@ impl Plane {
         }
     }
 
-    /// Where a ray meets the plane, in lengths of its direction; below zero where it does not, and for a ray along it.
+    /// Where a ray meets the plane, in lengths of its direction; below zero where it does not, for a ray along it, and for
+    /// one that starts in it: rays leave a plane through the origin from there, where nothing needs to be rounded.
     #[inline]
     pub fn crossing(&self, ray: &Ray) -> f32 {
         let approach = self.normal.dot(ray.direction);
         let height = self.offset - self.normal.dot(ray.origin);
-        if approach == 0.0 { -1.0 } else { height / approach }
+        if approach == 0.0 || height == 0.0 {
+            -1.0
+        } else {
+            height / approach
+        }
     }
 
     /// The point of the plane nearest to a point close by, and by how much a ray's origin must be moved off it.
@@ -83,5 +88,9 @@ mod tests {
             let out = Ray::new(point + plane.normal * clearance, plane.normal + plane.tangent);
             assert!(plane.crossing(&out) < 0.0, "{i}");
         }
+        let floor = Plane::new(Vec3::ZERO, Vec3::Y, 0);
+        let (point, clearance) = floor.surface_point(vec3(3.0, 1e-7, -2.0));
+        let out = Ray::new(point + floor.normal * clearance, vec3(1.0, 2.0, 3.0));
+        assert!(floor.crossing(&out) < 0.0);
     }
 }

@@ -121,7 +121,7 @@ pub struct InfoArguments {
 /// Which mesh, and its octree.
 #[derive(Debug, Default, Args)]
 pub struct MeshArguments {
-    /// A scene file (TOML), a PLY file, or one of the built-in meshes `bunny` and `balls` [default: bunny].
+    /// A scene file (TOML), a PLY file, or one of the built-in meshes `bunny`, `balls` and `stadium` [default: bunny].
     pub mesh: Option<PathBuf>,
     /// Limits of the octree, any of depth=0..13, leaf=N (cells with so few references are not split) and budget=N
     /// (references per triangle at most), separated by commas.

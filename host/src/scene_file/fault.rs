@@ -107,7 +107,10 @@ pub enum Reason {
         /// What is wrong with it.
         reason: ImageError,
     },
-    /// An image that is not there.
+    /// A file that is not there.
+    #[error("cannot be used: {}: there is no such file; check the path", .0.display())]
+    NoFile(PathBuf),
+    /// A file that the system does not give.
     #[error("cannot be used: {} cannot be read ({reason}); check the path", path.display())]
     File {
         /// The file.

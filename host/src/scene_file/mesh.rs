@@ -52,8 +52,7 @@ impl Mesh {
             (None, Some(Name::Balls)) => (MeshSource::Balls, "name"),
             (None, Some(Name::Stadium)) => (MeshSource::Stadium, "name"),
         };
-        let place_of_source = place.key(key);
-        let mesh = assembly.load(source, &place_of_source)?;
+        let mesh = assembly.load(source, &place.key(key))?;
         let has_colors = !mesh.colors.is_empty();
         let material = assembly
             .palette
@@ -62,6 +61,6 @@ impl Mesh {
             .scale
             .map_or(DVec3::ONE, |scale| DVec3::from_array(scale.0.map(|factor| factor.0)));
         let transform = Transform::new(scale, self.rotate.0, self.translate.0);
-        assembly.add(&place_of_source, mesh.as_ref().clone(), &transform, material)
+        assembly.add(place, mesh.as_ref().clone(), &transform, material)
     }
 }

@@ -6,7 +6,7 @@ use image::{DynamicImage, ImageError, ImageReader, Limits};
 use oktant_shared::texture::{SHARED_EXPONENT_IMAGE, SRGB_IMAGE, Texture, shared_exponent};
 use rayon::prelude::*;
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, ErrorKind};
 use std::path::Path;
 
 /// Most pixels of an image's row or column.
@@ -24,13 +24,16 @@ const BRIGHTEST: f32 = 65_408.0;
 /// # Errors
 /// Why it cannot be had.
 pub fn read(path: &Path, texels: &mut Vec<u32>) -> Result<Texture, Reason> {
-    let unreadable = |reason| Reason::File {
-        path: path.to_path_buf(),
-        reason,
+    let unreadable = |reason: std::io::Error| match reason.kind() {
+        ErrorKind::NotFound => Reason::NoFile(path.to_path_buf()),
+        _ => Reason::File {
+            path: path.to_path_buf(),
+            reason,
+        },
     };
     let file = File::open(path).map_err(unreadable)?;
     if file.metadata().map_err(unreadable)?.is_dir() {
-        return Err(unreadable(std::io::ErrorKind::IsADirectory.into()));
+        return Err(unreadable(ErrorKind::IsADirectory.into()));
     }
     let broken = |reason: ImageError| Reason::Image {
         path: path.to_path_buf(),

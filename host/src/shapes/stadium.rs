@@ -15,7 +15,7 @@ const HEIGHT: f32 = 42.0;
 const PARTS: u32 = 48;
 
 /// Colours, sRGB.
-const GRASS: [[u8; 3]; 2] = [[70, 130, 58], [84, 148, 68]];
+const GRASS: [[u8; 3]; 2] = [[92, 122, 74], [108, 138, 86]];
 const SEATS: [[u8; 3]; 3] = [[176, 52, 48], [205, 198, 184], [52, 84, 140]];
 const CONCRETE: [u8; 3] = [150, 148, 144];
 const WALL: [u8; 3] = [196, 190, 178];
@@ -34,15 +34,14 @@ pub fn stadium() -> Mesh {
     for side in 0..4 {
         for part in 0..PARTS {
             for step in 0..STEPS {
-                let low = RISE * step as f32;
+                let (low, top) = (height(step), height(step + 1));
                 let (inner, outer) = (half_size(step), half_size(step + 1));
-                let ends = |size, height| [0, 1].map(|end| corner(side, part + end, size, height));
-                let top = low + RISE;
-                add_quad(&mut mesh, ends(inner, low), ends(inner, top), CONCRETE);
+                let ends = |size, at| [0, 1].map(|end| corner(side, part + end, size, at));
+                add_quad(&mut mesh, ends(inner, low), ends(inner, top), seat(side, part, step));
                 add_quad(&mut mesh, ends(inner, top), ends(outer, top), seat(side, part, step));
             }
-            let ends = |height| [0, 1].map(|end| corner(side, part + end, outer, height));
-            add_quad(&mut mesh, ends(RISE * STEPS as f32), ends(HEIGHT), WALL);
+            let ends = |at| [0, 1].map(|end| corner(side, part + end, outer, at));
+            add_quad(&mut mesh, ends(height(STEPS)), ends(HEIGHT), WALL);
         }
     }
     mesh.with_normals()
@@ -53,9 +52,14 @@ fn half_size(step: u32) -> Vec2 {
     FIELD + Vec2::splat(DEPTH * step as f32)
 }
 
-/// How far along a side a part begins, -1 to 1.
+/// How far along a side a part begins, -1 to 1; from both ends alike, to the last bit.
 fn along(part: u32) -> f32 {
-    part as f32 * (2.0 / PARTS as f32) - 1.0
+    (2.0 * part as f32 - PARTS as f32) / PARTS as f32
+}
+
+/// The height of a step above the field, metres.
+fn height(step: u32) -> f32 {
+    RISE * step as f32
 }
 
 /// Where a part of a side begins: side 0 is at the back, the others follow clockwise seen from above.
@@ -70,7 +74,7 @@ fn corner(side: u32, part: u32, size: Vec2, height: f32) -> Vec3 {
     vec3(at.x * size.x, height, at.y * size.y)
 }
 
-/// The colour of what lies on a step: aisles between blocks of seats.
+/// The colour of a step: aisles between blocks of seats.
 fn seat(side: u32, part: u32, step: u32) -> [u8; 3] {
     if part % 8 == 0 || step % 20 == 19 {
         CONCRETE
