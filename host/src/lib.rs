@@ -2,6 +2,7 @@
 
 pub mod backend;
 pub mod balls;
+pub mod media;
 pub mod mesh;
 pub mod mesh_source;
 pub mod model;

@@ -33,7 +33,7 @@ pub struct Scene {
     pub vertices: Vec<Vertex>,
     /// Texture coordinates by vertex; a single one where the mesh has none.
     pub coordinates: Vec<Vec2>,
-    /// Index of the material by triangle.
+    /// Index of the material by triangle; a single one where the scene is plain (see [`Scene::is_plain`]).
     pub material_ids: Vec<u32>,
     /// The materials.
     pub materials: Vec<Material>,
@@ -147,25 +147,20 @@ impl Scene {
                 material.flags &= !(oktant_shared::material::SMOOTH_NORMALS | oktant_shared::material::VERTEX_COLORS);
             }
         }
-        let material_ids = if model.material_ids.is_empty() && materials.len() > 1 {
-            vec![0; triangles.len()]
-        } else {
-            model.material_ids
-        };
         let mut lights = model.lights.into_iter();
         let light = lights.next().unwrap_or(Light {
             color: Vec3::ZERO,
             ..white_light()
         });
         let lights: Vec<_> = lights.collect();
-        Scene {
+        let mut scene = Scene {
             root: octree.root,
             nodes: octree.nodes,
             references: never_empty(octree.references),
             triangles: never_empty(triangles),
             vertices: never_empty(vertices),
             coordinates: never_empty(model.mesh.coordinates),
-            material_ids: never_empty(material_ids),
+            material_ids: never_empty(model.material_ids),
             materials,
             light,
             light_count: lights.len() as u32,
@@ -181,7 +176,11 @@ impl Scene {
             duplicates: octree.duplicates,
             low,
             high,
+        };
+        if scene.material_ids.len() < scene.triangles.len() && !scene.is_plain() {
+            scene.material_ids = vec![0; scene.triangles.len()];
         }
+        scene
     }
 
     /// What a traversal reads.

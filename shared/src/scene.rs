@@ -28,7 +28,7 @@ pub struct Appearance<'a> {
     pub vertices: &'a [Vertex],
     /// Texture coordinates by vertex; a single one where no mesh has any.
     pub coordinates: &'a [Vec2],
-    /// Index of the material by triangle; a single one where there is only one material.
+    /// Index of the material by triangle; a single one where only one plain material is.
     pub material_ids: &'a [u32],
     /// The materials.
     pub materials: &'a [Material],
