@@ -4,6 +4,7 @@ pub mod aov;
 pub mod backend;
 pub mod balls;
 pub mod effort;
+pub mod media;
 pub mod mesh;
 pub mod mesh_source;
 pub mod model;

@@ -1,5 +1,6 @@
 //! What the user sets about a picture, and the frame that follows from it.
 
+use crate::media::media_at;
 use crate::sampling::{Filter, Pattern, Samples};
 use crate::scene::Scene;
 use crate::stereo::Stereo;
@@ -151,6 +152,7 @@ impl View {
             cutoff: self.cutoff,
             stereo: self.stereo.map_or(MONO, |stereo| stereo.code()),
             reserved: 0,
+            media: media_at(scene, camera.eye).to_eye(),
         }
     }
 }

@@ -74,6 +74,32 @@ pub fn fused_multiply_add_vector(a: f32, b: Vec3, c: Vec3) -> Vec3 {
     )
 }
 
+/// `a * b`, and what its rounding left out; nothing of that on a GPU whose fused multiply-add rounds twice.
+#[inline]
+pub fn product_with_error(a: f32, b: f32) -> (f32, f32) {
+    let product = a * b;
+    (product, fused_multiply_add(a, b, -product))
+}
+
+/// `a + b`, and what its rounding left out (D. Knuth, "The Art of Computer Programming" 2, 4.2.2).
+#[inline]
+fn sum_with_error(a: f32, b: f32) -> (f32, f32) {
+    let sum = a + b;
+    let of_b = sum - a;
+    (sum, (a - (sum - of_b)) + (b - of_b))
+}
+
+/// The dot product, and what its roundings left out (T. Ogita, S. Rump, S. Oishi, "Accurate sum and dot product", SIAM
+/// J. Sci. Comput. 26(6), 2005): together they are good to about 2^-46 of the largest product.
+pub fn dot_with_error(a: Vec3, b: Vec3) -> (f32, f32) {
+    let (x, x_error) = product_with_error(a.x, b.x);
+    let (y, y_error) = product_with_error(a.y, b.y);
+    let (z, z_error) = product_with_error(a.z, b.z);
+    let (two, two_error) = sum_with_error(x, y);
+    let (dot, dot_error) = sum_with_error(two, z);
+    (dot, x_error + y_error + z_error + two_error + dot_error)
+}
+
 /// `c - a * b`, rounded the same way wherever it stands: once on a GPU, twice natively.
 #[inline]
 pub fn multiply_subtract(a: f32, b: f32, c: f32) -> f32 {
@@ -126,6 +152,21 @@ mod tests {
             0.0,
             "the plain expression rounds twice"
         );
+    }
+
+    #[test]
+    fn dot_products_know_their_error() {
+        let mut x = 0.3_f32;
+        let mut next = || {
+            x = (x * 997.0 + 0.123_456_7) % 1.0;
+            x - 0.5
+        };
+        for _ in 0..10_000 {
+            let (a, b) = (Vec3::new(next(), next(), next()), Vec3::new(next(), next(), next()));
+            let exact = a.as_dvec3().dot(b.as_dvec3());
+            let (dot, error) = dot_with_error(a, b);
+            assert!((f64::from(dot) + f64::from(error) - exact).abs() < 1e-14);
+        }
     }
 
     #[test]

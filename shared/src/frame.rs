@@ -6,7 +6,7 @@ use crate::light::Light;
 use crate::octree::Root;
 use crate::stereo::{SIDE_BY_SIDE, STACKED};
 use bytemuck::{Pod, Zeroable};
-use glam::{UVec2, Vec3, uvec2};
+use glam::{UVec2, UVec4, Vec3, uvec2};
 
 /// Bit of [`Frame::features`]: all triangles are flat, whatever their materials say.
 pub const FLAT: u32 = 1;
@@ -53,9 +53,11 @@ pub struct Frame {
     pub stereo: u32,
     /// Fills the row.
     pub reserved: u32,
+    /// What the camera is inside of: see [`crate::medium::Media::of_eye`].
+    pub media: UVec4,
 }
 
-const _: () = assert!(size_of::<Frame>() == 288);
+const _: () = assert!(size_of::<Frame>() == 304);
 
 impl Frame {
     /// Width and height of the picture in pixels: the camera's, or twice as wide or high where the eyes have a half each.

@@ -2,6 +2,7 @@
 
 use crate::buffer::load;
 use crate::material::Material;
+use glam::UVec4;
 
 /// How many media can enclose a point at a time. Where more do, the last one entered takes the place of the one before.
 pub const MAX_NESTED: u32 = 4;
@@ -22,6 +23,19 @@ impl Media {
     pub const AIR: Media = Media {
         inside: [0; MAX_NESTED as usize],
     };
+
+    /// Those of [`crate::frame::Frame::media`]: indices of materials plus 1 in the order in which they were entered, and
+    /// 0 where there are no more.
+    pub fn of_eye(media: UVec4) -> Self {
+        Media {
+            inside: [media.x, media.y, media.z, media.w],
+        }
+    }
+
+    /// As [`crate::frame::Frame::media`].
+    pub fn to_eye(self) -> UVec4 {
+        UVec4::new(self.inside[0], self.inside[1], self.inside[2], self.inside[3])
+    }
 
     /// The material that fills the point, of those around it the one with the highest priority (of equal ones the last
     /// entered), as its index plus 1; 0 in the air.

@@ -14,8 +14,14 @@ pub fn face_normal(triangle: &Triangle) -> Vec3 {
     let edge_ac = triangle.c - triangle.a;
     // Scaled first: the product of the edges of a small triangle of a small mesh would underflow.
     let size = max_component(edge_ab.abs()) + max_component(edge_ac.abs());
-    if size > f32::MIN_POSITIVE {
-        unit_or_zero((edge_ab / size).cross(edge_ac / size))
+    if !(size > f32::MIN_POSITIVE) {
+        return Vec3::ZERO;
+    }
+    let normal = (edge_ab / size).cross(edge_ac / size);
+    // And again: that of a needle is short.
+    let length = max_component(normal.abs());
+    if length > f32::MIN_POSITIVE {
+        unit_or_zero(normal / length)
     } else {
         Vec3::ZERO
     }
@@ -55,5 +61,11 @@ mod tests {
             assert_eq!(face_normal(&triangle), Vec3::Z, "size {size}");
         }
         assert_eq!(face_normal(&Triangle::zeroed()), Vec3::ZERO);
+        let needle = Triangle {
+            b: Vec3::X,
+            c: Vec3::new(0.5, 1e-15, 0.0),
+            ..Triangle::zeroed()
+        };
+        assert_eq!(face_normal(&needle), Vec3::Z);
     }
 }

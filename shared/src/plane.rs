@@ -23,6 +23,9 @@ pub struct Plane {
 
 const _: () = assert!(size_of::<Plane>() == 32);
 
+/// So little that it changes no coordinate but zero, and so much that a ray of any length still knows it, scene units.
+const LEAST_CLEARANCE: f32 = 1e-20;
+
 impl Plane {
     /// The plane through a point, with a normal of any length.
     pub fn new(point: Vec3, normal: Vec3, material: u32) -> Self {
@@ -36,17 +39,12 @@ impl Plane {
         }
     }
 
-    /// Where a ray meets the plane, in lengths of its direction; below zero where it does not, for a ray along it, and for
-    /// one that starts in it: rays leave a plane through the origin from there, where nothing needs to be rounded.
+    /// Where a ray meets the plane, in lengths of its direction; below zero where it does not, and for a ray along it.
     #[inline]
     pub fn crossing(&self, ray: &Ray) -> f32 {
         let approach = self.normal.dot(ray.direction);
         let height = self.offset - self.normal.dot(ray.origin);
-        if approach == 0.0 || height == 0.0 {
-            -1.0
-        } else {
-            height / approach
-        }
+        if approach == 0.0 { -1.0 } else { height / approach }
     }
 
     /// The point of the plane nearest to a point close by, and by how much a ray's origin must be moved off it.
@@ -54,7 +52,8 @@ impl Plane {
         let point = near - self.normal * (self.normal.dot(near) - self.offset);
         // Roundings of the projection, of the moved point, and of the new ray's own height above the plane.
         let size = point.abs().dot(self.normal.abs()) + self.offset.abs();
-        (point, size * (12.0 / (1 << 24) as f32))
+        // Planes through the origin round nothing, but a ray must not start in them either.
+        (point, size * (12.0 / (1 << 24) as f32) + LEAST_CLEARANCE)
     }
 
     /// Texture coordinates of a point of the plane, scene units.
@@ -81,12 +80,18 @@ mod tests {
 
     #[test]
     fn moved_origins_are_on_their_side() {
-        let plane = Plane::new(vec3(0.3, 100.7, -0.2), vec3(0.3, 0.9, -0.2), 0);
-        for i in 0..1000_u32 {
-            let (x, y) = (i as f32 * 37.0 % 1013.0, i as f32 * 91.0 % 977.0);
-            let (point, clearance) = plane.surface_point(vec3(x, 100.0 - 0.3 * x, y));
-            let out = Ray::new(point + plane.normal * clearance, plane.normal + plane.tangent);
-            assert!(plane.crossing(&out) < 0.0, "{i}");
+        let askew = Plane::new(vec3(0.3, 100.7, -0.2), vec3(0.3, 0.9, -0.2), 0);
+        let level = Plane::new(Vec3::ZERO, Vec3::Y, 0);
+        for (plane, slope, height) in [(askew, 0.3, 100.0), (level, 0.0, 0.0)] {
+            for i in 0..1000_u32 {
+                let (x, y) = (i as f32 * 37.0 % 1013.0, i as f32 * 91.0 % 977.0);
+                let (point, clearance) = plane.surface_point(vec3(x, height - slope * x, y));
+                for length in [1.0, 1e9] {
+                    let out = plane.normal + plane.tangent;
+                    let out = Ray::new(point + plane.normal * clearance, out * length);
+                    assert!(plane.crossing(&out) < 0.0, "{i}");
+                }
+            }
         }
         let floor = Plane::new(Vec3::ZERO, Vec3::Y, 0);
         let (point, clearance) = floor.surface_point(vec3(3.0, 1e-7, -2.0));

@@ -89,7 +89,7 @@ impl Passage {
             }
         } else {
             let triangle = load(world.scene.triangles, hit.triangle);
-            let face = face_normal(&triangle);
+            let face = faced(&triangle, ray);
             let (point, clearance) = surface_point(&triangle, hit, face);
             let from_front = face.dot(ray.direction) <= 0.0;
             Passage {
@@ -127,6 +127,16 @@ fn on_plane(world: &World<'_>, ray: &Ray, hit: &Hit, view: Vec3) -> Surface {
     }
 }
 
+/// The face normal of a triangle that a ray met. One so thin that rounding leaves it without area is seen from its front.
+fn faced(triangle: &Triangle, ray: &Ray) -> Vec3 {
+    let face = face_normal(triangle);
+    if face == Vec3::ZERO {
+        -ray.direction.normalize()
+    } else {
+        face
+    }
+}
+
 fn on_triangle<const FULL: bool>(frame: &Frame, world: &World<'_>, ray: &Ray, hit: &Hit, view: Vec3) -> Surface {
     let appearance = &world.appearance;
     let triangle = load(world.scene.triangles, hit.triangle);
@@ -136,7 +146,7 @@ fn on_triangle<const FULL: bool>(frame: &Frame, world: &World<'_>, ray: &Ray, hi
         0
     };
     let material = load(appearance.materials, material_id);
-    let face = face_normal(&triangle);
+    let face = faced(&triangle, ray);
     let (point, clearance) = surface_point(&triangle, hit, face);
     let from_front = face.dot(ray.direction) <= 0.0;
     let turn = if from_front { 1.0 } else { -1.0 };
@@ -155,7 +165,7 @@ fn on_triangle<const FULL: bool>(frame: &Frame, world: &World<'_>, ray: &Ray, hi
         ];
         if smooth {
             front = interpolated_normal(&corners, hit, face);
-            shadow_point = lifted(&triangle, &corners, hit, point, turn);
+            shadow_point = lifted(&triangle, &corners, hit, point, side);
         }
         if colored {
             base *= linear_color(corners[0].color) * (1.0 - hit.u - hit.v)
@@ -219,8 +229,15 @@ fn bumpy(world: &World<'_>, material: &Material, at: Vec2, normal: Vec3, along_u
 /// How far above the surface the reflected ray stays, as a part of its length.
 const LEAST_ELEVATION: f32 = 1e-3;
 
-/// The normal, tilted towards the viewer by no more than what keeps the reflected ray above the surface.
+/// The vector or its opposite, whichever is on the side of `reference`.
+fn towards(v: Vec3, reference: Vec3) -> Vec3 {
+    if v.dot(reference) < 0.0 { -v } else { v }
+}
+
+/// The normal on the side of the viewer, where a mesh's normals and the order of its corners disagree too, tilted towards
+/// the viewer by no more than what keeps the reflected ray above the surface.
 fn bent(normal: Vec3, side: Vec3, view: Vec3) -> Vec3 {
+    let normal = towards(normal, side);
     let mirrored = reflected(-view, normal);
     let elevation = mirrored.dot(side);
     if elevation >= LEAST_ELEVATION {
@@ -234,9 +251,9 @@ fn bent(normal: Vec3, side: Vec3, view: Vec3) -> Vec3 {
 /// The point lifted to where the surface would be if it were as round as its normals say: the mean of its projections on
 /// the corners' tangent planes, those below which it lies (J. Hanika, "Hacking the shadow terminator", Ray Tracing Gems
 /// II, 2021). Rays to the light that start there do not see the edges of the triangles.
-fn lifted(triangle: &Triangle, corners: &[Vertex; 3], hit: &Hit, point: Vec3, turn: f32) -> Vec3 {
+fn lifted(triangle: &Triangle, corners: &[Vertex; 3], hit: &Hit, point: Vec3, side: Vec3) -> Vec3 {
     let lift = |corner: Vec3, normal: Vec3, weight: f32| {
-        let normal = normal * turn;
+        let normal = towards(normal, side);
         normal * (weight * max(-(point - corner).dot(normal), 0.0))
     };
     point

@@ -77,7 +77,7 @@ pub fn trace<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Trace
         depth: 0,
         direction: ray.direction,
         weight: Vec3::ONE,
-        media: Media::AIR,
+        media: Media::of_eye(frame.media),
     };
     let mut stack = [next; MAX_DEPTH as usize];
     let mut waiting = 0;
@@ -178,7 +178,7 @@ fn follow<V: Traversal>(frame: &Frame, world: &World<'_>, from: &Pending, traced
             load(appearance.materials, then - 1).ior
         };
         if !surface.from_front && around == 0 {
-            // Inside of something that was never entered, for example where the camera stands in it.
+            // Inside of something that was never entered: its surface is not closed, or the eyes are apart.
             from_index = material.ior;
         }
     }

@@ -6,4 +6,5 @@ pub mod exact;
 pub mod meshes;
 pub mod program;
 pub mod ray_classes;
+pub mod stage;
 pub mod tally;

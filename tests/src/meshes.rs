@@ -2,6 +2,7 @@
 
 mod closing;
 mod room;
+mod solids;
 
 use std::collections::HashMap;
 use std::f32::consts::{PI, TAU};
@@ -11,6 +12,7 @@ use oktant::mesh::Mesh;
 
 pub use closing::{is_closed, with_holes_fanned};
 pub use room::room;
+pub use solids::{ball, block, hexahedron, quad, turned_inside_out};
 
 /// A mesh of bare triangles.
 fn bare(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
