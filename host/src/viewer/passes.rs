@@ -1,0 +1,89 @@
+//! The passes that the samples of a picture are taken in.
+
+use oktant_shared::frame::Frame;
+use oktant_shared::sampling::R2;
+use oktant_shared::stereo::EyeView;
+
+/// One pass for each sample, the first of them first, in an order in which a few are spread over the pixel already, so
+/// that the picture can be shown while it is refined.
+pub fn passes(frame: &Frame) -> impl Iterator<Item = Frame> + use<> {
+    let frame = *frame;
+    let count = frame.sample_count;
+    // Any odd step reaches all of 4, 16 or 64. Those of the sequence R2 are in the best order as they are.
+    let step = if frame.pattern == R2 {
+        1
+    } else {
+        (count as f32 * 0.618) as u32 | 1
+    };
+    (0..count).map(move |i| Frame {
+        first_sample: i * step % count,
+        sample_count: 1,
+        ..frame
+    })
+}
+
+/// Camera rays of a frame.
+pub fn rays(frame: &Frame) -> u64 {
+    let size = frame.size();
+    u64::from(size.x) * u64::from(size.y) * u64::from(frame.sample_count * EyeView::eyes(frame))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bytemuck::Zeroable;
+    use glam::{Vec2, vec2};
+    use oktant_shared::sampling::{REGULAR, ROTATED, sample};
+    use oktant_shared::stereo::{ANAGLYPH, STACKED};
+
+    fn frame(pattern: u32, side: u32) -> Frame {
+        Frame {
+            pattern,
+            samples: side * side,
+            sample_count: side * side,
+            samples_per_side: side,
+            ..Frame::zeroed()
+        }
+    }
+
+    #[test]
+    fn every_sample_is_taken_once_and_the_first_one_overwrites() {
+        for pattern in [REGULAR, ROTATED, R2] {
+            for side in [1, 2, 4, 8] {
+                let frame = frame(pattern, side);
+                let mut numbers: Vec<u32> = passes(&frame).map(|pass| pass.first_sample).collect();
+                assert_eq!(numbers[0], 0);
+                numbers.sort_unstable();
+                assert_eq!(numbers, (0..side * side).collect::<Vec<u32>>());
+            }
+        }
+    }
+
+    #[test]
+    fn a_few_samples_are_spread_over_the_pixel() {
+        for pattern in [REGULAR, ROTATED, R2] {
+            for (side, few) in [(4, 4), (8, 4), (8, 8), (8, 16), (8, 32)] {
+                let frame = frame(pattern, side);
+                let places = passes(&frame)
+                    .take(few)
+                    .map(|pass| sample(&frame, pass.first_sample).place);
+                let mean = places.sum::<Vec2>() / few as f32;
+                assert!(
+                    mean.distance(vec2(0.5, 0.5)) < 0.2,
+                    "{few} of {side} x {side}, {pattern}: {mean}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn two_eyes_count() {
+        let mut frame = frame(REGULAR, 2);
+        (frame.camera.width, frame.camera.height) = (10, 5);
+        assert_eq!(rays(&frame), 200);
+        for stereo in [ANAGLYPH, STACKED] {
+            frame.stereo = stereo;
+            assert_eq!(rays(&frame), 400);
+        }
+    }
+}
