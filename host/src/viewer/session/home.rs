@@ -19,14 +19,11 @@ impl Session {
     /// stay.
     pub fn open(&mut self, home: View, radius: f32) {
         let mode = |view: &View| view.stereo.map(|stereo| stereo.mode);
-        let stereo = match kept(mode(&self.view), mode(&self.home), mode(&home)) {
-            Some(mode) => Some(Stereo {
-                mode,
-                // Lengths are in units of the scene.
-                ..home.stereo.unwrap_or(Stereo::new(mode))
-            }),
-            None => None,
-        };
+        let stereo = kept(mode(&self.view), mode(&self.home), mode(&home)).map(|mode| Stereo {
+            mode,
+            // Lengths are in units of the scene.
+            ..home.stereo.unwrap_or(Stereo::new(mode))
+        });
         self.view = View {
             shading: kept(self.view.shading, self.home.shading, home.shading),
             samples: kept(self.view.samples, self.home.samples, home.samples),
