@@ -99,11 +99,11 @@ impl Refinement {
         }
     }
 
-    /// Takes note of a pass; whether what there is should be shown before the rest is there. A single sample is not: it
-    /// is no better than the draft.
+    /// Takes note of a pass; whether what there is should be shown before the rest is there. An odd sample waits for the
+    /// one opposite.
     fn shows(&mut self, pass: &Frame) -> bool {
         self.taken += pass.sample_count;
-        let shows = self.taken > 1 && self.taken < self.wanted && self.shown.elapsed() >= REFINEMENT;
+        let shows = self.taken.is_multiple_of(2) && self.taken < self.wanted && self.shown.elapsed() >= REFINEMENT;
         if shows {
             self.shown = Instant::now();
         }
