@@ -33,6 +33,16 @@ pub struct Stereo {
 /// What people can bear is about this part of the convergence.
 const EYE_PART: f32 = 1.0 / 30.0;
 
+impl StereoMode {
+    /// Camera rays that each sample of a pixel takes.
+    pub fn rays_per_sample(self) -> u32 {
+        match self {
+            StereoMode::SideBySide | StereoMode::Rows => 1,
+            StereoMode::Sequential | StereoMode::Anaglyph => 2,
+        }
+    }
+}
+
 impl Stereo {
     /// Both at their defaults.
     pub fn new(mode: StereoMode) -> Self {
@@ -61,11 +71,17 @@ impl Stereo {
         }
     }
 
+    /// Between the eyes, scene units, where the camera looks at something so far away.
+    pub fn eyes_apart(&self, distance: f32) -> f32 {
+        self.eye_distance
+            .unwrap_or(self.convergence.unwrap_or(distance) * EYE_PART)
+    }
+
     /// Gives a camera its eyes; its own depth of convergence is what it looks at.
     pub fn part_eyes(&self, camera: &mut Camera) {
+        camera.eye_shift = self.eyes_apart(camera.convergence) / 2.0;
         if let Some(convergence) = self.convergence {
             camera.convergence = convergence;
         }
-        camera.eye_shift = self.eye_distance.unwrap_or(camera.convergence * EYE_PART) / 2.0;
     }
 }

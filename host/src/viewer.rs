@@ -2,39 +2,49 @@
 //!
 //! Everything that happens to it becomes an `Event`, and that an `Input` where it asks for something; a
 //! script makes events too. The `Session` is the state that inputs change. What follows is done by threads: one
-//! renders, one loads a mesh, one opens the GPU; they answer with a `Notice`. The window itself only draws.
+//! renders, one loads a scene, one opens the GPU, one notices that a file was saved; they answer with a `Notice`. The window itself only draws.
 
 mod application;
 mod caption;
 mod compose;
+mod draft;
 mod draw;
 mod event;
 mod figures;
 mod gpu_screen;
 mod grammar;
+mod handler;
 mod input;
 mod loader;
+mod loads;
+mod look;
 mod news;
 mod notice;
 mod opener;
 mod overlay;
 mod pace;
+mod passes;
 mod pictures;
 mod play;
 mod player;
 mod presenter;
 mod renderer;
+mod report;
 mod schedule;
 mod screen;
 mod script;
 mod session;
+mod showing;
 mod software_screen;
 mod state;
 mod step;
 mod task;
 mod translation;
+mod turns;
+mod watcher;
 mod work;
 
+pub use look::Look;
 pub use notice::LoadError;
 pub use screen::ScreenError;
 pub use script::ScriptError;
@@ -43,7 +53,6 @@ use crate::backend::gpu::ModulePath;
 use crate::backend::{BackendChoice, BackendError};
 use crate::octree::OctreeOptions;
 use crate::source::Source;
-use crate::view::View;
 use application::Application;
 use notice::{Mailbox, Notice};
 use player::Player;
@@ -60,10 +69,10 @@ pub struct ViewerOptions {
     pub source: Source,
     /// Limits of its octree.
     pub octree: OctreeOptions,
-    /// From where it is seen, and how.
-    pub view: View,
-    /// Width and height of the window's inside, physical pixels.
-    pub size: [u32; 2],
+    /// What is changed in the view that comes with it, or with whatever is looked at later.
+    pub look: Look,
+    /// Width and height of the window's inside, physical pixels; as the scene says, else 1280 times 968.
+    pub size: Option<[u32; 2]>,
     /// What renders.
     pub backend: BackendChoice,
     /// How the kernel reaches the GPU's driver.

@@ -59,7 +59,7 @@ pub struct ViewArguments {
     pub look: LookArguments,
     #[command(flatten)]
     pub engine: EngineArguments,
-    /// Size of the window's picture in pixels [default: 1280x968].
+    /// Size of the window's picture in pixels [default: as the scene says, else 1280x968].
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
     /// Feed the window from a file instead of a person; docs/viewer.md describes the format.
@@ -130,7 +130,7 @@ pub struct MeshArguments {
 }
 
 /// How the picture looks. What is not given is as the scene says, or as it is for a mesh alone.
-#[derive(Debug, Default, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub struct LookArguments {
     /// Samples of a pixel [default: 1].
     #[arg(long, value_enum)]

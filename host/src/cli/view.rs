@@ -3,20 +3,19 @@
 use super::Failure;
 use super::arguments::{FileArguments, ViewArguments};
 use super::render::render;
-use oktant::view::View;
-use oktant::viewer::{ViewerError, ViewerOptions};
+use oktant::viewer::{Look, ViewerError, ViewerOptions};
 use std::path::PathBuf;
 
 /// The picture that stands in for the window where there is no display.
 const PICTURE: &str = "oktant.png";
 
 pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
-    let size = arguments.size.unwrap_or_default();
+    let look = arguments.look.clone();
     let options = ViewerOptions {
         source: arguments.mesh.source(),
         octree: arguments.mesh.octree.0,
-        view: arguments.look.applied(View::default()),
-        size: [size.width, size.height],
+        look: Look::new(move |view| look.applied(view)),
+        size: arguments.size.map(|size| [size.width, size.height]),
         backend: arguments.engine.choice(),
         module: arguments.engine.module(),
         script: arguments.script.clone(),

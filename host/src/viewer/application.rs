@@ -1,35 +1,37 @@
 //! The window: takes events and notices, and leaves the work to others.
 
+use super::draft::{Draft, Paces};
 use super::event::Event;
 use super::figures::Figures;
 use super::input::Input;
-use super::notice::{Image, Mailbox, Notice};
+use super::notice::{Image, Mailbox};
 use super::opener::open_gpu;
 use super::overlay::{Line, Overlay};
-use super::pace::Pace;
 use super::player::Player;
 use super::renderer::Renderer;
 use super::schedule::Schedule;
 use super::screen::Screen;
 use super::session::{Effect, Session};
+use super::showing::Part;
 use super::state::{GpuState, Loading, Message, Work};
 use super::task::{Destination, Task};
 use super::translation::Translation;
+use super::watcher::Watcher;
 use super::{ViewerError, ViewerOptions};
 use crate::backend::BackendChoice;
 use crate::backend::gpu::GpuOptions;
+use crate::model::Focus;
 use crate::scene::Scene;
 use crate::source::Source;
+use crate::view::View;
 use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use winit::application::ApplicationHandler;
-use winit::dpi::PhysicalSize;
-use winit::event::WindowEvent;
-use winit::event_loop::{ActiveEventLoop, ControlFlow};
-use winit::window::{Window, WindowId};
+use winit::window::Window;
 
+/// Size of the window where nobody says it.
+const DEFAULT_SIZE: [u32; 2] = [1280, 968];
 /// A message is shown for so long.
 const MESSAGE: Duration = Duration::from_secs(8);
 
@@ -47,16 +49,24 @@ pub struct Application {
     pub(super) work: Work,
     /// Pictures to save, first come first served.
     pub(super) saves: VecDeque<Task>,
-    /// How fast the CPU is, and the GPU.
-    pub(super) paces: [Pace; 2],
+    /// How fast the CPU renders the scene, and the GPU.
+    pub(super) paces: [Paces; 2],
+    /// How the last picture was simplified that was begun.
+    pub(super) last_draft: Draft,
     pub(super) figures: Figures,
     pub(super) scene: Option<Arc<Scene>>,
     /// What the scene was made from.
     pub(super) source: Source,
-    /// The mesh that is being loaded.
+    /// What it says of what is looked at.
+    pub(super) focus: Option<Focus>,
+    /// Notices when a file of the scene is saved.
+    pub(super) watcher: Watcher,
+    /// What is being loaded.
     pub(super) loading: Option<Loading>,
     /// Loads begun.
     pub(super) loads: u64,
+    /// Loads done of what was shown already.
+    pub(super) reloads: u64,
     pub(super) gpu: GpuState,
     /// Whether the GPU is to render, once it is there.
     pub(super) wants_gpu: bool,
@@ -65,6 +75,9 @@ pub struct Application {
     /// The picture to show, and whether the window shows it.
     pub(super) image: Option<Image>,
     pub(super) is_shown: bool,
+    /// Which part of the picture is shown, and when the other one has its turn.
+    pub(super) part: Part,
+    pub(super) next_turn: Option<Instant>,
     pub(super) panels: Vec<Vec<Line>>,
     pub(super) overlay: Overlay,
     pub(super) title: String,
@@ -81,28 +94,38 @@ pub struct Application {
 }
 
 impl Application {
-    /// Begins to load the mesh and to open the GPU; the window comes with [`ApplicationHandler::resumed`].
+    /// Begins to load the source and to open the GPU; the window comes with [`ApplicationHandler::resumed`].
     pub fn new(options: ViewerOptions, start: Instant, mailbox: Mailbox, player: Option<Player>) -> Self {
         let mut application = Application {
             start,
-            session: Session::new(options.view, options.size, 1.0),
+            session: Session::new(
+                options.look.applied(View::default()),
+                options.size.unwrap_or(DEFAULT_SIZE),
+                1.0,
+            ),
             translation: Translation::default(),
             schedule: Schedule::new(start),
             renderer: Renderer::start(mailbox.clone()),
             work: Work::Idle,
             saves: VecDeque::new(),
-            paces: [Pace::default(); 2],
+            paces: [Paces::guessed(true); 2],
+            last_draft: Draft::FINE,
             figures: Figures::default(),
             scene: None,
             source: options.source.clone(),
+            focus: None,
+            watcher: Watcher::start(mailbox.clone()),
             loading: None,
             loads: 0,
+            reloads: 0,
             gpu: GpuState::Closed,
             wants_gpu: false,
             window: None,
             screen: None,
             image: None,
             is_shown: false,
+            part: Part::Whole,
+            next_turn: None,
             panels: Vec::new(),
             overlay: Overlay::default(),
             title: String::new(),
@@ -143,6 +166,7 @@ impl Application {
         self.message = Some(Message {
             text,
             is_warning,
+            is_about_load: false,
             until: Instant::now() + MESSAGE,
         });
         self.redraw();
@@ -152,17 +176,6 @@ impl Application {
         if let Some(window) = &self.window {
             window.request_redraw();
         }
-    }
-
-    pub(super) fn load(&mut self, source: Source) {
-        self.loads += 1;
-        self.loading = Some(Loading {
-            source: source.clone(),
-            stage: "reading",
-            fraction: 0.0,
-        });
-        super::loader::load(self.loads, source, self.options.octree, &self.mailbox);
-        self.redraw();
     }
 
     pub(super) fn open_gpu(&mut self, software: bool, is_required: bool) {
@@ -187,6 +200,10 @@ impl Application {
         match self.session.apply(input) {
             Effect::Nothing => {}
             Effect::Redraw => self.redraw(),
+            Effect::Show => {
+                self.is_shown = false;
+                self.redraw();
+            }
             Effect::Render => self.schedule.change(now),
             Effect::Save(path) => self.save(path),
             Effect::Open(path) => self.load(Source::from_path(path)),
@@ -200,7 +217,7 @@ impl Application {
         match self.save_task(destination) {
             Some(task) => self.saves.push_back(task),
             None => self.tell(
-                "There is no picture to save yet; wait until the mesh is shown.".into(),
+                "There is no picture to save yet; wait until the scene is shown.".into(),
                 true,
             ),
         }
@@ -222,106 +239,5 @@ impl Application {
             GpuState::Closed => self.open_gpu(true, false),
         }
         self.redraw();
-    }
-
-    /// Puts off what can wait and says when to wake up.
-    fn next_wake(&mut self, now: Instant) -> Option<Instant> {
-        if self.message.as_ref().is_some_and(|message| message.until <= now) {
-            self.message = None;
-            self.redraw();
-        }
-        if self.figures.expiry().is_some_and(|expiry| expiry <= now) {
-            self.figures.forget(now);
-            self.redraw();
-        }
-        if self.retry.is_some_and(|retry| retry <= now) {
-            self.retry = None;
-            self.redraw();
-        }
-        let playing = self.play(now);
-        let working = self.work(now);
-        let waiting = self.message.as_ref().map(|message| message.until);
-        [playing, working, waiting, self.figures.expiry(), self.retry]
-            .into_iter()
-            .flatten()
-            .min()
-    }
-}
-
-impl ApplicationHandler<Notice> for Application {
-    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        if self.window.is_some() {
-            return;
-        }
-        let [width, height] = self.options.size;
-        let attributes = Window::default_attributes()
-            .with_title("oktant")
-            .with_inner_size(PhysicalSize::new(width, height));
-        let window = match event_loop.create_window(attributes) {
-            Ok(window) => Arc::new(window),
-            Err(error) => {
-                self.fail(ViewerError::Window(error.to_string()));
-                event_loop.exit();
-                return;
-            }
-        };
-        match Screen::software(window.clone()) {
-            Ok(screen) => self.screen = Some(screen),
-            // A display with ten bits a colour, say: a GPU may still draw on it.
-            Err(_) if matches!(self.gpu, GpuState::Opening { .. }) => {}
-            Err(error) => {
-                self.fail(error);
-                event_loop.exit();
-                return;
-            }
-        }
-        let size = window.inner_size();
-        let resized = Event::Resized {
-            size: [size.width, size.height],
-            scale: window.scale_factor(),
-        };
-        self.window = Some(window);
-        self.take_event(&resized, Instant::now());
-        self.redraw();
-    }
-
-    fn user_event(&mut self, _: &ActiveEventLoop, notice: Notice) {
-        self.take_notice(notice, Instant::now());
-    }
-
-    fn window_event(&mut self, _: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
-        let now = Instant::now();
-        if event == WindowEvent::RedrawRequested {
-            self.draw(now);
-            return;
-        }
-        let Some(event) = Event::from_winit(&event, self.session.size, self.session.scale) else {
-            return;
-        };
-        // A script is not disturbed by the hand that happens to hold the mouse.
-        let is_window = matches!(event, Event::Resized { .. } | Event::CloseRequested);
-        if self.player.is_none() || is_window {
-            self.take_event(&event, now);
-        }
-        if is_window {
-            self.redraw();
-        }
-    }
-
-    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
-        let wake = self.next_wake(Instant::now());
-        if self.quits {
-            event_loop.exit();
-            return;
-        }
-        event_loop.set_control_flow(wake.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
-    }
-
-    fn exiting(&mut self, _: &ActiveEventLoop) {
-        self.renderer.cancel();
-        // The screen goes before the window, and both before the event loop.
-        self.image = None;
-        self.screen = None;
-        self.window = None;
     }
 }

@@ -1,22 +1,30 @@
 //! What the overlay says.
 
 use super::overlay::{Line, Tone, wrap};
+use crate::stereo::StereoMode;
+use crate::tone::{self, Curve};
+use clap::ValueEnum;
 
 /// What every key and every drag does.
-const HELP: [(&str, &str); 14] = [
+const HELP: [(&str, &str); 19] = [
     ("left drag", "turn the camera"),
     ("right drag", "turn the light"),
     ("middle drag, Shift+drag", "pan"),
     ("wheel", "come closer, go away"),
-    ("double click, F", "fit the mesh into the window"),
+    ("double click, F", "fit what is looked at into the window"),
     ("R", "back to the first view"),
     ("P", "flat or Phong shading"),
-    ("M", "1, 4 or 16 samples a pixel"),
+    ("M", "1, 4, 16 or 64 samples a pixel"),
+    (". ,", "more or fewer reflections"),
+    ("T", "next tone curve"),
+    ("+ -", "brighter, darker"),
+    ("3", "next kind of stereo"),
+    ("] [", "eyes farther apart, nearer"),
     ("B", "CPU or GPU"),
     ("I", "figures on or off"),
     ("H, ?", "this list"),
     ("Ctrl+S", "save the picture"),
-    ("drop a PLY file", "look at it"),
+    ("drop a scene or mesh file", "look at it"),
     ("Esc", "quit"),
 ];
 
@@ -37,6 +45,12 @@ pub struct Caption {
     pub samples: [u32; 2],
     /// Whether normals are interpolated.
     pub phong: bool,
+    /// How many times a ray may be reflected or refracted.
+    pub depth: u32,
+    /// How the light is made to fit the screen.
+    pub tone: tone::Tone,
+    /// How two eyes share the screen, and their distance in scene units.
+    pub stereo: Option<(StereoMode, f32)>,
     /// What renders.
     pub backend: String,
     /// What is being loaded, and how far it is.
@@ -70,12 +84,30 @@ pub fn figures(caption: &Caption) -> Vec<Line> {
         format!("{} \u{d7} {}", caption.size[0], caption.size[1]),
         samples,
         if caption.phong { "Phong" } else { "flat" }.into(),
+        format!("depth {}", caption.depth),
+    ];
+    let tone::Tone { exposure, curve } = caption.tone;
+    let screen = [
+        if curve == Curve::None {
+            String::new()
+        } else {
+            format!("tone {}", name(&curve))
+        },
+        if exposure == 0.0 {
+            String::new()
+        } else {
+            format!("{exposure:+.1} stops")
+        },
+        caption.stereo.map_or_else(String::new, |(mode, distance)| {
+            format!("{}, eyes {} apart", name(&mode), significant(distance))
+        }),
     ];
     let mut lines = vec![
         plain(joined(&[caption.backend.clone(), "H: keys".into()])),
         strong(joined(&speed)),
         plain(joined(&mesh)),
     ];
+    lines.extend(Some(joined(&screen)).filter(|line| !line.is_empty()).map(plain));
     lines.extend(caption.loading.clone().map(strong));
     lines
 }
@@ -132,6 +164,23 @@ pub fn digits(number: f64) -> String {
     format!("{number:.decimals$}")
 }
 
+/// A length with three digits, whatever its size.
+fn significant(length: f32) -> String {
+    if (1e-3..1e4).contains(&length) {
+        let decimals = (2 - length.log10().floor() as i32).max(0) as usize;
+        format!("{length:.decimals$}")
+    } else {
+        format!("{length:.2e}")
+    }
+}
+
+/// What the command line calls a value.
+pub fn name(value: &impl ValueEnum) -> String {
+    value
+        .to_possible_value()
+        .map_or_else(String::new, |value| value.get_name().into())
+}
+
 /// A number with its thousands apart.
 pub fn grouped(number: usize) -> String {
     let digits = number.to_string();
@@ -147,6 +196,7 @@ pub fn grouped(number: usize) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::grammar::KEYS;
     use super::*;
 
     #[test]
@@ -172,6 +222,20 @@ mod tests {
     }
 
     #[test]
+    fn lengths() {
+        for (length, text) in [
+            (0.093_333, "0.0933"),
+            (1.0, "1.00"),
+            (99.99, "100.0"),
+            (1234.5, "1234"),
+            (1e-5, "1.00e-5"),
+            (123_456.0, "1.23e5"),
+        ] {
+            assert_eq!(significant(length), text);
+        }
+    }
+
+    #[test]
     fn the_figures() {
         let caption = Caption {
             frames_a_second: Some(59.94),
@@ -181,6 +245,9 @@ mod tests {
             size: [1280, 968],
             samples: [4, 4],
             phong: true,
+            depth: 5,
+            tone: tone::Tone::default(),
+            stereo: None,
             backend: "CPU, 2 threads".into(),
             loading: None,
         };
@@ -190,26 +257,38 @@ mod tests {
             [
                 "CPU, 2 threads   H: keys",
                 "59.9 frames/s   kernel 1.50 ms   826 Mrays/s",
-                "69,451 triangles   1280 \u{d7} 968   4 samples   Phong",
+                "69,451 triangles   1280 \u{d7} 968   4 samples   Phong   depth 5",
             ]
         );
         let waiting = Caption {
             loading: Some("reading a.ply 40 %".into()),
             samples: [16, 7],
+            tone: tone::Tone {
+                exposure: -1.0 / 3.0,
+                curve: Curve::Aces,
+            },
+            stereo: Some((StereoMode::SideBySide, 0.093_333)),
             ..Caption::default()
         };
         assert_eq!(
             text(&waiting)[1..],
-            ["idle", "0 \u{d7} 0   7 of 16 samples   flat", "reading a.ply 40 %"]
+            [
+                "idle",
+                "0 \u{d7} 0   7 of 16 samples   flat   depth 0",
+                "tone aces   -0.3 stops   side-by-side, eyes 0.0933 apart",
+                "reading a.ply 40 %"
+            ]
         );
     }
 
     #[test]
     fn every_key_is_listed() {
         let help: Vec<String> = help().into_iter().map(|line| line.text).collect();
-        for key in ["F", "R", "P", "M", "B", "I", "H", "?", "Ctrl+S", "Esc"] {
+        for key in KEYS.into_iter().filter(|key| !["=", "Escape"].contains(key)) {
             assert!(
-                help.iter().any(|line| line.split([' ', ',']).any(|word| word == key)),
+                help.iter().any(|line| line
+                    .split(' ')
+                    .any(|word| word == key || word.strip_suffix(',') == Some(key))),
                 "{key} in {help:#?}"
             );
         }

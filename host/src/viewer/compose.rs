@@ -1,29 +1,14 @@
 //! Picture and overlay as the window shows them, on the CPU.
 
 use super::overlay::Overlay;
+use super::showing::Showing;
 use crate::picture::Picture;
-use bytemuck::Zeroable;
-use glam::{Vec3, vec2};
+use glam::{Vec3, Vec4, vec2};
 use oktant_shared::color::linear_from_srgb;
 use oktant_shared::present::{Present, mean_color, presented_color};
-use oktant_shared::tone::CLIPPED;
+use oktant_shared::tone::tone_mapped;
 use std::num::NonZero;
 use std::sync::LazyLock;
-
-/// How a picture and an overlay go onto a surface.
-pub fn present(picture: [u32; 2], overlay: &Overlay, surface: [u32; 2]) -> Present {
-    Present {
-        width: picture[0],
-        height: picture[1],
-        surface_width: surface[0],
-        surface_height: surface[1],
-        overlay_width: overlay.width,
-        overlay_height: overlay.height,
-        exposure: 1.0,
-        curve: CLIPPED,
-        ..Present::zeroed()
-    }
-}
 
 /// Threads that compose at most.
 const THREADS: usize = 4;
@@ -32,8 +17,8 @@ const THREADS: usize = 4;
 /// one pixel of the picture covers several of the surface.
 ///
 /// On threads of its own: all of rayon's may be rendering, and would be waited for.
-pub fn compose(picture: &Picture, overlay: &Overlay, surface: [u32; 2], pixels: &mut [u32]) {
-    let present = present([picture.width, picture.height], overlay, surface);
+pub fn compose(picture: &Picture, overlay: &Overlay, showing: &Showing, surface: [u32; 2], pixels: &mut [u32]) {
+    let present = &showing.present([picture.width, picture.height], overlay, surface);
     let columns: Vec<u32> = (0..surface[0]).map(|x| scaled(x, surface[0], picture.width)).collect();
     let width = surface[0] as usize;
     let threads = std::thread::available_parallelism()
@@ -49,15 +34,20 @@ pub fn compose(picture: &Picture, overlay: &Overlay, surface: [u32; 2], pixels: 
                     let (above, row) = band.split_at_mut(y * width);
                     let row = &mut row[..width];
                     let y = (top + y) as u32;
-                    let source = scaled(y, surface[1], picture.height);
+                    let source = present.first_row + scaled(y, surface[1], present.height);
                     if last == Some(source) && y > overlay.height {
                         row.copy_from_slice(&above[above.len() - width..]);
                         continue;
                     }
                     last = Some(source);
-                    compose_row(picture, source, columns, row);
+                    compose_row(
+                        present,
+                        &picture.sums[(source * picture.width) as usize..],
+                        columns,
+                        row,
+                    );
                     if y < overlay.height {
-                        lay_over(&present, picture, overlay, y, row);
+                        lay_over(present, picture, overlay, y, row);
                     }
                 }
             });
@@ -66,14 +56,13 @@ pub fn compose(picture: &Picture, overlay: &Overlay, surface: [u32; 2], pixels: 
 }
 
 /// Writes a row of the surface that shows a row of the picture.
-fn compose_row(picture: &Picture, source: u32, columns: &[u32], row: &mut [u32]) {
+fn compose_row(present: &Present, sums: &[Vec4], columns: &[u32], row: &mut [u32]) {
     let encoder = &*ENCODER;
-    let start = (source * picture.width) as usize;
-    let sums = &picture.sums[start..start + picture.width as usize];
     let mut last = (u32::MAX, 0);
     for (pixel, &column) in row.iter_mut().zip(columns) {
         if last.0 != column {
-            last = (column, encoder.encode(mean_color(sums[column as usize])));
+            let color = tone_mapped(mean_color(sums[column as usize]), present.exposure, present.curve);
+            last = (column, encoder.encode(color));
         }
         *pixel = last.1;
     }
@@ -151,9 +140,10 @@ impl Encoder {
 
 #[cfg(test)]
 mod tests {
+    use super::super::showing::Part;
     use super::*;
     use crate::picture::srgb_bytes;
-    use glam::Vec4;
+    use crate::tone::{Curve, Tone};
 
     #[test]
     fn the_encoder_rounds_as_the_picture_file_does() {
@@ -194,14 +184,45 @@ mod tests {
                 texels: (0..24).map(|_| next() << 8 | 7).collect(),
             };
             let mut pixels = vec![0; (surface[0] * surface[1]) as usize];
-            compose(&picture, &overlay, surface, &mut pixels);
-            let present = present(size, &overlay, surface);
-            for (pixel, i) in pixels.iter().zip(0..) {
-                let at = vec2((i % surface[0]) as f32 + 0.5, (i / surface[0]) as f32 + 0.5);
-                let color = presented_color(&present, &picture.sums, &overlay.texels, at);
-                assert_eq!(*pixel, ENCODER.encode(color.truncate()), "{at} of {surface:?}");
+            for (part, curve) in [Part::Whole, Part::Upper, Part::Lower].into_iter().zip(Curve::ALL) {
+                if part != Part::Whole && size[1] == 1 {
+                    continue;
+                }
+                let tone = Tone { exposure: 0.7, curve };
+                let showing = Showing { tone, part };
+                compose(&picture, &overlay, &showing, surface, &mut pixels);
+                let present = showing.present(size, &overlay, surface);
+                for (pixel, i) in pixels.iter().zip(0..) {
+                    let at = vec2((i % surface[0]) as f32 + 0.5, (i / surface[0]) as f32 + 0.5);
+                    let color = presented_color(&present, &picture.sums, &overlay.texels, at);
+                    assert_eq!(
+                        *pixel,
+                        ENCODER.encode(color.truncate()),
+                        "{at} of {surface:?}, {showing:?}"
+                    );
+                }
             }
         }
+    }
+
+    #[test]
+    fn eyes_take_turns() {
+        let [left, right] = [Vec4::new(1.0, 0.0, 0.0, 1.0), Vec4::new(0.0, 0.0, 0.5, 1.0)];
+        let picture = Picture::of_sums(1, 4, vec![left, left, right, right]);
+        let shown = |part| {
+            let showing = Showing {
+                tone: Tone {
+                    exposure: 1.0,
+                    ..Tone::default()
+                },
+                part,
+            };
+            let mut pixels = vec![0; 6];
+            compose(&picture, &Overlay::default(), &showing, [2, 3], &mut pixels);
+            pixels
+        };
+        assert_eq!(shown(Part::Upper), [0x00ff_0000; 6]);
+        assert_eq!(shown(Part::Lower), [0x0000_00ff; 6]);
     }
 
     #[test]
@@ -213,7 +234,7 @@ mod tests {
             texels: vec![0xff00_00ff],
         };
         let mut pixels = vec![0; 4 * 2];
-        compose(&picture, &overlay, [4, 2], &mut pixels);
+        compose(&picture, &overlay, &Showing::default(), [4, 2], &mut pixels);
         let (blue, red, magenta) = (0x0000_00ff, 0x00ff_0000, 0x00ff_00ff);
         assert_eq!(pixels, [red, blue, magenta, magenta, blue, blue, magenta, magenta]);
     }

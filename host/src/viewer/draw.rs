@@ -5,6 +5,7 @@ use super::caption::{self, Caption};
 use super::notice::Image;
 use super::overlay::{Line, Overlay};
 use super::screen::{Screen, ScreenError};
+use super::showing::Showing;
 use super::state::GpuState;
 use crate::picture::Picture;
 use crate::view::Shading;
@@ -47,11 +48,16 @@ impl Application {
                 }
             }
         }
+        let showing = self.showing();
         let Some(screen) = &mut self.screen else { return };
         if !screen.shows(&image) {
             return;
         }
-        match screen.draw(&image, &self.overlay, self.session.size) {
+        let drawn = screen.draw(&image, &self.overlay, &showing, self.session.size);
+        if drawn == Ok(true) {
+            self.plan_turn(now);
+        }
+        match drawn {
             Ok(true) if self.image.is_some() && !self.is_shown => {
                 self.is_shown = true;
                 self.figures.frame(now);
@@ -63,6 +69,14 @@ impl Application {
             Err(ScreenError::Backend(error)) => self.gpu_failed(error.and_the_cpu_renders(), now),
             Err(error @ ScreenError::Surface(_)) => self.gpu_failed(error.to_string(), now),
             Err(error @ ScreenError::Software(_)) => self.fail(error),
+        }
+    }
+
+    /// How the picture is shown now.
+    pub(super) fn showing(&self) -> Showing {
+        Showing {
+            tone: self.session.view.tone,
+            part: self.part,
         }
     }
 
@@ -104,6 +118,13 @@ impl Application {
             size: self.session.size,
             samples: [self.session.view.samples.count(), self.figures.samples],
             phong: self.session.view.shading == Shading::Phong,
+            depth: self.session.view.depth,
+            tone: self.session.view.tone,
+            stereo: self
+                .session
+                .view
+                .stereo
+                .map(|stereo| (stereo.mode, self.session.eye_distance())),
             backend: self.backend_name(),
             loading: self.loading_text(),
         }

@@ -145,6 +145,14 @@ fn key(logical: &WinitKey, physical: PhysicalKey) -> Option<Key> {
         KeyCode::KeyP => 'p',
         KeyCode::KeyR => 'r',
         KeyCode::KeyS => 's',
+        KeyCode::KeyT => 't',
+        KeyCode::Digit3 => '3',
+        KeyCode::Equal => '=',
+        KeyCode::Minus => '-',
+        KeyCode::Period => '.',
+        KeyCode::Comma => ',',
+        KeyCode::BracketLeft => '[',
+        KeyCode::BracketRight => ']',
         _ => return None,
     }))
 }

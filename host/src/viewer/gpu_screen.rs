@@ -4,6 +4,7 @@ use super::notice::Image;
 use super::overlay::Overlay;
 use super::presenter::Presenter;
 use super::screen::ScreenError;
+use super::showing::Showing;
 use crate::backend::gpu::{Gpu, GpuPicture};
 use crate::picture::Picture;
 use std::sync::{Arc, Weak};
@@ -69,7 +70,13 @@ impl GpuScreen {
     ///
     /// # Errors
     /// [`ScreenError::Backend`] where the device fails, [`ScreenError::Surface`] where the surface does.
-    pub fn draw(&mut self, image: &Image, overlay: &Overlay, size: [u32; 2]) -> Result<bool, ScreenError> {
+    pub fn draw(
+        &mut self,
+        image: &Image,
+        overlay: &Overlay,
+        showing: &Showing,
+        size: [u32; 2],
+    ) -> Result<bool, ScreenError> {
         if size.contains(&0) {
             return Ok(true);
         }
@@ -101,7 +108,7 @@ impl GpuScreen {
                 ..Default::default()
             });
             self.presenter
-                .draw(&self.gpu, &view, size, self.picture(image), overlay);
+                .draw(&self.gpu, &view, size, self.picture(image), overlay, showing);
             self.window.pre_present_notify();
             self.gpu.queue.present(texture);
             self.is_stale = is_suboptimal;
@@ -116,7 +123,13 @@ impl GpuScreen {
     ///
     /// # Errors
     /// [`ScreenError::Backend`] where the device fails.
-    pub fn screenshot(&mut self, image: &Image, overlay: &Overlay, size: [u32; 2]) -> Result<Vec<u8>, ScreenError> {
+    pub fn screenshot(
+        &mut self,
+        image: &Image,
+        overlay: &Overlay,
+        showing: &Showing,
+        size: [u32; 2],
+    ) -> Result<Vec<u8>, ScreenError> {
         self.upload(image)?;
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
         let texture = self.gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -134,7 +147,8 @@ impl GpuScreen {
             view_formats: &[],
         });
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        Presenter::new(&self.gpu, format).draw(&self.gpu, &view, size, self.picture(image), overlay);
+        let presenter = Presenter::new(&self.gpu, format);
+        presenter.draw(&self.gpu, &view, size, self.picture(image), overlay, showing);
         Ok(self.gpu.read_rgb8(&texture)?)
     }
 

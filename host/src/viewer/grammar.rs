@@ -22,9 +22,12 @@ const STEPS: [&str; 14] = [
     "quit",
 ];
 const DRAGS: [&str; 4] = ["left", "right", "middle", "shift+left"];
-const WAITS: [&str; 3] = ["settled", "frames", "milliseconds"];
+const WAITS: [&str; 4] = ["settled", "frames", "reloaded", "milliseconds"];
 const EXPECTATIONS: [&str; 4] = ["first-picture", "backend", "triangles", "message"];
-const KEYS: [&str; 11] = ["F", "R", "P", "M", "B", "H", "?", "I", "Ctrl+S", "Esc", "Escape"];
+/// The keys that mean something.
+pub const KEYS: [&str; 20] = [
+    "F", "R", "P", "M", "T", "+", "=", "-", ".", ",", "3", "[", "]", "B", "H", "?", "I", "Ctrl+S", "Esc", "Escape",
+];
 
 /// The first word of a text, and the rest of it.
 fn split(text: &str) -> (&str, &str) {
@@ -100,6 +103,7 @@ fn wait(rest: &str) -> Result<Step, String> {
     let (word, rest) = split(rest);
     match word {
         "settled" => alone("wait settled", rest, Step::WaitSettled),
+        "reloaded" => alone("wait reloaded", rest, Step::WaitReloaded),
         "frames" => Ok(Step::WaitFrames(count("wait frames", rest)?)),
         "milliseconds" => Ok(Step::WaitMilliseconds(count("wait milliseconds", rest)?)),
         _ => Err(unknown(word, "thing to wait for", &WAITS)),

@@ -19,7 +19,7 @@ pub enum Input {
         /// Downwards.
         down: f32,
     },
-    /// Move the mesh across the line of sight, by a drag in pixels of the window.
+    /// Move what is seen across the line of sight, by a drag in pixels of the window.
     Pan {
         /// To the right.
         right: f32,
@@ -28,14 +28,24 @@ pub enum Input {
     },
     /// Come closer by so many notches of the wheel; negative ones lead away.
     Zoom(f32),
-    /// Fit the mesh into the window.
+    /// Fit what is looked at into the window.
     Frame,
-    /// Go back to the view that the window opened with.
+    /// Go back to where camera and light first were.
     Reset,
     /// Flat or Phong shading.
     ToggleShading,
-    /// 1, 4 or 16 samples a pixel.
+    /// 1, 4, 16 or 64 samples a pixel.
     NextSamples,
+    /// Another tone curve.
+    NextTone,
+    /// Brighter by so many steps of the exposure; negative ones are darker.
+    Expose(f32),
+    /// So many reflections and refractions more; negative ones are fewer.
+    Deepen(i32),
+    /// One eye, or another way for two to share the screen.
+    NextStereo,
+    /// The eyes farther apart by so many steps; negative ones bring them together.
+    PartEyes(f32),
     /// CPU or GPU.
     SwitchBackend,
     /// The list of keys.
@@ -44,7 +54,7 @@ pub enum Input {
     ToggleFigures,
     /// Save the picture: into a file, or under the next free name.
     Save(Option<PathBuf>),
-    /// Look at another mesh.
+    /// Look at another scene.
     Open(PathBuf),
     /// The window has another size now, in physical pixels (0 while it is minimised), and so many of them to a unit.
     Resize {

@@ -1,17 +1,36 @@
-//! Reading a mesh and building its octree beside the window.
+//! Reading a scene and building its octree beside the window.
 
 use super::notice::{LoadError, Mailbox, Notice};
+use super::watcher::Stamps;
+use crate::model::Focus;
 use crate::octree::OctreeOptions;
 use crate::scene::Scene;
 use crate::source::Source;
+use crate::view::View;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
 /// Progress is not told more often than this.
 const INTERVAL: Duration = Duration::from_millis(50);
 
-/// Begins to load a mesh; the mailbox learns how far it is, and gets the scene. `load` is the number under which it does.
+/// A scene that was loaded, and what came with it.
+#[derive(Debug)]
+pub struct Arrival {
+    /// What there is to see.
+    pub scene: Arc<Scene>,
+    /// From where, and how.
+    pub view: View,
+    /// What is looked at, where the source says so.
+    pub focus: Option<Focus>,
+    /// Size of the picture in pixels, where the source says so.
+    pub size: Option<[u32; 2]>,
+    /// The files that were read.
+    pub stamps: Stamps,
+}
+
+/// Begins to load a source; the mailbox learns how far it is, and gets the scene. `load` is the number under which it
+/// does.
 pub fn load(load: u64, source: Source, octree: OctreeOptions, mailbox: &Mailbox) {
     let mailbox = mailbox.clone();
     thread::spawn(move || {
@@ -24,12 +43,21 @@ pub fn load(load: u64, source: Source, octree: OctreeOptions, mailbox: &Mailbox)
             }
         };
         let load_scene = || -> Result<_, LoadError> {
+            let began = SystemTime::now();
             let setting = source.load(&progress)?;
+            let stamps = Stamps::new(setting.files, began);
+            let focus = setting.model.focus;
             let scene = Scene::of_model(setting.model, &octree, &progress).map_err(|error| LoadError::Scene {
                 name: source.to_string(),
                 source: error,
             })?;
-            Ok((Arc::new(scene), setting.view))
+            Ok(Box::new(Arrival {
+                scene: Arc::new(scene),
+                view: setting.view,
+                focus,
+                size: setting.size,
+                stamps,
+            }))
         };
         let result = load_scene();
         mailbox.send(Notice::Loaded { load, result });

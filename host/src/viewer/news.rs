@@ -1,11 +1,11 @@
 //! What follows from the notices of the threads.
 
 use super::application::Application;
-use super::notice::{Image, Notice};
+use super::notice::{Notice, Rendered};
 use super::schedule::Quality;
 use super::screen::Screen;
+use super::showing::Part;
 use super::state::{GpuState, Work};
-use crate::sampling::Samples;
 use std::time::Instant;
 
 impl Application {
@@ -20,24 +20,10 @@ impl Application {
                     self.redraw();
                 }
             }
-            // An older mesh: another one was dropped meanwhile.
+            // An older one: another one was dropped meanwhile, or it was saved again.
             Notice::Loaded { load, .. } if load != self.loads => {}
-            Notice::Loaded { result, .. } => {
-                let loading = self.loading.take();
-                match result {
-                    Ok((scene, _)) => {
-                        if self.scene.replace(scene).is_some() {
-                            self.session.reset();
-                        }
-                        if let Some(loading) = loading {
-                            self.source = loading.source;
-                        }
-                        self.schedule.change(now);
-                    }
-                    Err(error) if self.scene.is_none() => self.fail(error),
-                    Err(error) => self.tell(error.to_string(), true),
-                }
-            }
+            Notice::Loaded { result, .. } => self.take_load(result, now),
+            Notice::Changed => self.reload(),
             Notice::GpuOpened(Ok(gpu)) => {
                 self.gpu = GpuState::Open(gpu.0);
                 if self.wants_gpu {
@@ -55,15 +41,15 @@ impl Application {
                     self.ensure_screen();
                 }
             }
-            Notice::Rendered(rendered) => self.take_picture(rendered.number, rendered.image, rendered.complete),
+            Notice::Rendered(rendered) => self.take_picture(rendered),
             Notice::Refined {
                 samples,
                 rays,
                 milliseconds,
             } => {
                 self.figures.pass(samples, rays, milliseconds);
-                if let Work::Show { on_gpu, .. } = self.work {
-                    self.paces[usize::from(on_gpu)].measured(rays, milliseconds);
+                if let Work::Show { draft, on_gpu } = self.work {
+                    self.paces[usize::from(on_gpu)].measured(draft.is_shallow, rays, milliseconds);
                     self.redraw();
                 }
             }
@@ -89,18 +75,23 @@ impl Application {
         }
     }
 
-    fn take_picture(&mut self, number: u64, image: Image, complete: bool) {
-        if !self.schedule.takes(number) {
+    fn take_picture(&mut self, rendered: Rendered) {
+        if !self.schedule.takes(rendered.number) {
             return;
         }
-        let is_whole = matches!(self.work, Work::Show { edge: 1, .. }) && self.session.view.samples == Samples::One;
-        let quality = if complete || is_whole {
+        let quality = if rendered.complete {
             Quality::Final
         } else {
             Quality::Draft
         };
-        self.schedule.shows(number, quality);
-        self.image = Some(image);
+        self.schedule.shows(rendered.number, quality);
+        self.image = Some(rendered.image);
+        // The eye whose turn it was keeps it.
+        self.part = match (rendered.is_stacked, self.part) {
+            (false, _) => Part::Whole,
+            (true, Part::Whole) => Part::Upper,
+            (true, part) => part,
+        };
         self.is_shown = false;
         self.redraw();
     }
@@ -110,6 +101,7 @@ impl Application {
         self.wants_gpu = false;
         self.gpu = GpuState::Closed;
         self.image = None;
+        self.part = Part::Whole;
         self.screen = None;
         self.schedule.shows_nothing(now);
         self.ensure_screen();

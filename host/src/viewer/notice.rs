@@ -1,12 +1,12 @@
 //! What the threads tell the window.
 
+use super::loader::Arrival;
 use crate::backend::BackendError;
 use crate::backend::gpu::{Gpu, GpuPicture};
 use crate::output::OutputError;
 use crate::picture::Picture;
-use crate::scene::{Scene, SceneError};
+use crate::scene::SceneError;
 use crate::source::SourceError;
-use crate::view::View;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 use winit::event_loop::EventLoopProxy;
@@ -14,7 +14,7 @@ use winit::event_loop::EventLoopProxy;
 /// News from a thread.
 #[derive(Debug)]
 pub enum Notice {
-    /// How far a mesh is.
+    /// How far a load is.
     Loading {
         /// Number of the load.
         load: u64,
@@ -23,20 +23,22 @@ pub enum Notice {
         /// Of the stage, 0 to 1.
         fraction: f32,
     },
-    /// A mesh is there, or cannot be had.
+    /// A scene is there, or cannot be had.
     Loaded {
         /// Number of the load.
         load: u64,
         /// What came of it.
-        result: Result<(Arc<Scene>, View), LoadError>,
+        result: Result<Box<Arrival>, LoadError>,
     },
+    /// A file of what is shown was saved.
+    Changed,
     /// The GPU is open, or cannot be.
     GpuOpened(Result<OpenGpu, BackendError>),
     /// A picture, or a better one.
     Rendered(Rendered),
     /// A pass is done: so many of the wanted samples are taken.
     Refined {
-        /// Samples so far.
+        /// Samples of each pixel so far.
         samples: u32,
         /// Camera rays of the pass.
         rays: u64,
@@ -66,7 +68,9 @@ pub struct Rendered {
     pub number: u64,
     /// Where it lies.
     pub image: Image,
-    /// Whether it has all its pixels and samples.
+    /// Whether it is two, the left eye's above the right eye's.
+    pub is_stacked: bool,
+    /// Whether it is all that is wanted.
     pub complete: bool,
 }
 

@@ -5,7 +5,7 @@ use super::application::Application;
 use super::event::Event;
 use super::input::Input;
 use super::notice::Image;
-use super::player::{self, PATIENCE};
+use super::player::{self, Counts, PATIENCE};
 use super::step::{Expectation, Step};
 use crate::output::PictureFile;
 use std::io::Write;
@@ -38,10 +38,13 @@ impl Application {
                 self.quits = true;
                 break;
             };
-            let begins = player.begins(now, self.figures.frames);
+            let counts = Counts {
+                frames: self.figures.frames,
+                reloads: self.reloads,
+            };
+            let begins = player.begins(now, counts);
             let waited = player.elapsed(now);
-            let frames = self.figures.frames - player.frames();
-            let progress = match self.step(&step, begins, waited, frames, &mut player, now) {
+            let progress = match self.step(&step, begins, &mut player, now) {
                 Ok(Progress::Waits) if waited > PATIENCE + minimum(&step) => Err(format!(
                     "the step is not done after {} s; wait for something else",
                     waited.as_secs()
@@ -67,11 +70,10 @@ impl Application {
         &mut self,
         step: &Step,
         begins: bool,
-        waited: Duration,
-        frames: u64,
         player: &mut player::Player,
         now: Instant,
     ) -> Result<Progress, String> {
+        let (waited, since) = (player.elapsed(now), player.counts());
         let wait_for = |done| Ok(if done { Progress::Done } else { Progress::Waits });
         match step {
             Step::Drag {
@@ -125,7 +127,8 @@ impl Application {
                 drop(std::io::stdout().write_all(text.as_bytes()));
             }
             Step::WaitSettled => return wait_for(self.is_settled()),
-            Step::WaitFrames(count) => return wait_for(frames >= *count),
+            Step::WaitFrames(count) => return wait_for(self.figures.frames - since.frames >= *count),
+            Step::WaitReloaded => return wait_for(self.reloads > since.reloads),
             Step::WaitMilliseconds(time) => return wait_for(waited >= Duration::from_millis(*time)),
             Step::Expect(expectation) => self.expect(expectation)?,
             Step::Quit => self.quits = true,
@@ -133,7 +136,7 @@ impl Application {
         Ok(Progress::Done)
     }
 
-    fn resized(&self, size: [u32; 2]) -> Event {
+    pub(super) fn resized(&self, size: [u32; 2]) -> Event {
         Event::Resized {
             size,
             scale: self.session.scale,
@@ -142,12 +145,13 @@ impl Application {
 
     fn screenshot(&mut self, path: &Path, now: Instant) -> Result<(), String> {
         self.draw(now);
+        let showing = self.showing();
         let (Some(screen), Some(image), true) = (&mut self.screen, &self.image, self.session.is_visible()) else {
             return Err("the window shows no picture yet; wait for it with: wait settled".into());
         };
         let size = self.session.size;
         let pixels = screen
-            .screenshot(image, &self.overlay, size)
+            .screenshot(image, &self.overlay, &showing, size)
             .map_err(|error| error.to_string())?;
         PictureFile::create(path)
             .and_then(|file| file.save_rgb8(&pixels, size))
@@ -188,42 +192,6 @@ impl Application {
                 None => "there is no message".into(),
             },
         })
-    }
-
-    /// The figures and the view, a line each: a name and its values.
-    fn report(&self, now: Instant) -> String {
-        let caption = self.caption(now);
-        let view = &self.session.view;
-        let mut text = String::new();
-        let mut line = |name: &str, value: String| text.extend([name, " ", &value, "\n"]);
-        let number = |value: Option<f64>| value.map_or_else(|| "-".into(), |value| format!("{value:.3}"));
-        let first = self.figures.first_picture.map(|first| first.as_secs_f64() * 1e3);
-        line("backend", caption.backend);
-        line(
-            "triangles",
-            caption
-                .triangles
-                .map_or_else(|| "-".into(), |triangles| triangles.to_string()),
-        );
-        line("size", format!("{} {}", caption.size[0], caption.size[1]));
-        line("samples", format!("{} of {}", caption.samples[1], caption.samples[0]));
-        line("shading", if caption.phong { "phong" } else { "flat" }.into());
-        for (name, place) in [("camera", view.camera), ("light", view.light)] {
-            line(
-                name,
-                format!("{} {} {}", place.azimuth, place.elevation, place.distance),
-            );
-        }
-        line(
-            "target",
-            format!("{} {} {}", view.target.x, view.target.y, view.target.z),
-        );
-        line("first-picture", number(first));
-        line("frames", self.figures.frames.to_string());
-        line("frames-a-second", number(caption.frames_a_second));
-        line("kernel-milliseconds", number(caption.kernel));
-        line("megarays-a-second", number(caption.megarays_a_second));
-        text
     }
 }
 

@@ -13,13 +13,22 @@ const MOVES: u32 = 10;
 /// A step that waits longer has failed.
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
+/// What a step may wait for.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Counts {
+    /// New pictures shown.
+    pub frames: u64,
+    /// Loads done of what was shown already.
+    pub reloads: u64,
+}
+
 /// A script and the place in it.
 #[derive(Debug)]
 pub struct Player {
     script: Script,
     next: usize,
     since: Instant,
-    frames: u64,
+    counts: Counts,
     events: VecDeque<Event>,
     next_event: Instant,
     begun: bool,
@@ -32,7 +41,7 @@ impl Player {
             script,
             next: 0,
             since: now,
-            frames: 0,
+            counts: Counts::default(),
             events: VecDeque::new(),
             next_event: now,
             begun: false,
@@ -50,13 +59,13 @@ impl Player {
     }
 
     /// True once for each step.
-    pub fn begins(&mut self, now: Instant, frames: u64) -> bool {
+    pub fn begins(&mut self, now: Instant, counts: Counts) -> bool {
         if self.begun {
             return false;
         }
         self.begun = true;
         self.since = now;
-        self.frames = frames;
+        self.counts = counts;
         true
     }
 
@@ -65,9 +74,9 @@ impl Player {
         now.saturating_duration_since(self.since)
     }
 
-    /// Frames when the step began.
-    pub fn frames(&self) -> u64 {
-        self.frames
+    /// What there was when the step began.
+    pub fn counts(&self) -> Counts {
+        self.counts
     }
 
     /// On to the next step.

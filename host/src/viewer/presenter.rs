@@ -1,7 +1,7 @@
 //! Drawing a picture from the GPU's memory onto a surface, without a trip over the CPU.
 
-use super::compose::present;
 use super::overlay::Overlay;
+use super::showing::Showing;
 use crate::backend::gpu::Gpu;
 use wgpu::util::DeviceExt;
 
@@ -71,6 +71,7 @@ impl Presenter {
         target_size: [u32; 2],
         (sums, picture_size): (&wgpu::Buffer, [u32; 2]),
         overlay: &Overlay,
+        showing: &Showing,
     ) {
         let buffer = |label, contents: &[u8], usage| {
             gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -86,7 +87,7 @@ impl Presenter {
             &overlay.texels
         };
         let texels = buffer("overlay", bytemuck::cast_slice(texels), wgpu::BufferUsages::STORAGE);
-        let uniform = present(picture_size, overlay, target_size);
+        let uniform = showing.present(picture_size, overlay, target_size);
         let uniform = buffer("present", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);
         let entries: Vec<_> = [sums, &texels, &uniform]
             .into_iter()

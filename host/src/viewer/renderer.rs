@@ -2,6 +2,7 @@
 
 use super::notice::{Image, Mailbox, Notice, Rendered, SaveError};
 use super::pace::Pace;
+use super::passes::{passes, rays};
 use super::pictures;
 use super::task::{Destination, Engine, Plan, Purpose, Task};
 use crate::backend::cpu::Cpu;
@@ -12,6 +13,7 @@ use crate::picture::Picture;
 use crate::progress::silent;
 use crate::scene::Scene;
 use oktant_shared::frame::Frame;
+use oktant_shared::stereo::STACKED;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -19,8 +21,10 @@ use std::sync::{Arc, Weak};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// A pass on the GPU takes no longer, so that it can be given up.
+/// A pass on the GPU takes no longer, if it has more than one sample, so that it can be given up.
 const GPU_PASS: Duration = Duration::from_millis(25);
+/// While a picture is refined, it is shown no more often than this.
+const REFINEMENT: Duration = Duration::from_millis(250);
 /// Pictures in the GPU's memory that are kept to be written again.
 const SPARE_PICTURES: usize = 3;
 
@@ -40,7 +44,6 @@ impl Renderer {
             cancel: cancel.clone(),
             uploaded: None,
             spare: Vec::new(),
-            pace: Pace::default(),
         };
         thread::spawn(move || worker.work(&queue));
         Renderer { tasks, cancel }
@@ -70,14 +73,42 @@ struct Worker {
     cancel: Arc<AtomicBool>,
     uploaded: Option<Uploaded>,
     spare: Vec<Arc<GpuPicture>>,
-    pace: Pace,
 }
 
-/// A scene in a GPU's memory, and which one it is.
+/// A scene in a GPU's memory, which one it is, and how fast it is rendered.
 struct Uploaded {
     gpu: Weak<Gpu>,
     scene: Weak<Scene>,
     there: GpuScene,
+    pace: Pace,
+}
+
+/// A picture that is refined, and when it was shown.
+struct Refinement {
+    wanted: u32,
+    taken: u32,
+    shown: Instant,
+}
+
+impl Refinement {
+    fn new(frame: &Frame) -> Self {
+        Refinement {
+            wanted: frame.sample_count,
+            taken: 0,
+            shown: Instant::now(),
+        }
+    }
+
+    /// Takes note of a pass; whether what there is should be shown before the rest is there. An odd sample waits for the
+    /// one opposite.
+    fn shows(&mut self, pass: &Frame) -> bool {
+        self.taken += pass.sample_count;
+        let shows = self.taken.is_multiple_of(2) && self.taken < self.wanted && self.shown.elapsed() >= REFINEMENT;
+        if shows {
+            self.shown = Instant::now();
+        }
+        shows
+    }
 }
 
 impl Worker {
@@ -105,46 +136,45 @@ impl Worker {
         self.cancel.load(Ordering::Relaxed)
     }
 
-    fn send(&self, number: u64, image: Image, complete: bool) {
+    fn send(&self, number: u64, frame: &Frame, image: Image, complete: bool) {
         self.mailbox.send(Notice::Rendered(Rendered {
             number,
             image,
+            is_stacked: frame.stereo == STACKED,
             complete,
         }));
     }
 
-    /// Tells the window of a pass and remembers how long it took.
-    fn passed(&mut self, frame: &Frame, milliseconds: f64) {
-        let size = frame.size();
-        let rays = u64::from(size.x) * u64::from(size.y) * u64::from(frame.sample_count);
-        self.pace.measured(rays, milliseconds);
+    /// Tells the window of a pass: so many samples are taken.
+    fn passed(&self, taken: u32, pass: &Frame, milliseconds: f64) {
         self.mailbox.send(Notice::Refined {
-            samples: frame.first_sample + frame.sample_count,
-            rays,
+            samples: taken,
+            rays: rays(pass),
             milliseconds,
         });
     }
 
-    fn show_cpu(&mut self, task: &Task) {
+    fn show_cpu(&self, task: &Task) {
         let Some(plan) = Plan::new(task) else { return };
         let cpu = Cpu::new(task.scene.clone());
-        let cancel = self.cancel.clone();
         for (frame, complete) in plan.pictures {
             let mut picture = Picture::unwritten(frame.size().x, frame.size().y);
-            // One sample at a time: the CPU can be stopped at any tile, but the figures are to move.
-            for sample in 0..frame.sample_count {
-                let pass = Frame {
-                    first_sample: sample,
-                    sample_count: 1,
-                    ..frame
-                };
+            let mut refinement = Refinement::new(&frame);
+            for pass in passes(&frame) {
                 let start = Instant::now();
-                if !cpu.render_pass(&pass, &mut picture, &cancel, &silent) {
+                if !cpu.render_pass(&pass, &mut picture, &self.cancel, &silent) {
                     return;
                 }
-                self.passed(&pass, start.elapsed().as_secs_f64() * 1e3);
+                let milliseconds = start.elapsed().as_secs_f64() * 1e3;
+                let shows = refinement.shows(&pass);
+                self.passed(refinement.taken, &pass, milliseconds);
+                if shows {
+                    // A copy: the window keeps it while the next samples are added.
+                    let copy = Picture::of_sums(picture.width, picture.height, picture.sums.clone());
+                    self.send(plan.number, &frame, Image::Cpu(Arc::new(copy)), false);
+                }
             }
-            self.send(plan.number, Image::Cpu(Arc::new(picture)), complete);
+            self.send(plan.number, &frame, Image::Cpu(Arc::new(picture)), complete);
         }
     }
 
@@ -152,59 +182,67 @@ impl Worker {
         let Some(plan) = Plan::new(task) else { return Ok(()) };
         for (frame, complete) in plan.pictures {
             let picture = self.spare_picture(gpu, frame.size().into())?;
-            if !self.passes(task, gpu, &picture, &frame, true)? {
+            if !self.refine(task, gpu, &picture, &frame, Some(plan.number))? {
                 return Ok(());
             }
-            self.send(plan.number, Image::Gpu(picture), complete);
+            self.send(plan.number, &frame, Image::Gpu(picture), complete);
         }
         Ok(())
     }
 
-    /// Takes all samples of a frame, as many at once as are quick; false where it was cancelled.
-    fn passes(
+    /// Takes all samples of a frame, at once where that is quick. A picture with a number is shown meanwhile, and may
+    /// be cancelled: returns false then.
+    ///
+    /// The window may show what the next pass adds to: the device does one after the other, so that it finds each pixel
+    /// with its last pass or without.
+    fn refine(
         &mut self,
         task: &Task,
         gpu: &Arc<Gpu>,
-        picture: &GpuPicture,
+        picture: &Arc<GpuPicture>,
         frame: &Frame,
-        can_cancel: bool,
+        number: Option<u64>,
     ) -> Result<bool, BackendError> {
-        self.upload(gpu, &task.scene)?;
-        let pixels = u64::from(picture.width) * u64::from(picture.height);
-        let mut done = 0;
-        while done < frame.sample_count {
-            if can_cancel && self.cancelled() {
+        let mut refinement = Refinement::new(frame);
+        let is_quick = self.upload(gpu, &task.scene)?.pace.time(rays(frame)) <= GPU_PASS;
+        let frames = if is_quick {
+            vec![*frame]
+        } else {
+            passes(frame).collect()
+        };
+        for pass in frames {
+            if number.is_some() && self.cancelled() {
                 return Ok(false);
             }
-            let pass = Frame {
-                first_sample: done,
-                sample_count: self.pace.samples(pixels, frame.sample_count - done, GPU_PASS),
-                ..*frame
-            };
-            let uploaded = self.uploaded.as_ref().expect("uploaded above");
+            let uploaded = self.upload(gpu, &task.scene)?;
             let milliseconds = gpu.render_pass_timed(&uploaded.there, picture, &pass)?;
-            self.passed(&pass, milliseconds);
-            done += pass.sample_count;
+            uploaded.pace.measured(rays(&pass), milliseconds);
+            let shows = refinement.shows(&pass);
+            self.passed(refinement.taken, &pass, milliseconds);
+            if let (true, Some(number)) = (shows, number) {
+                self.send(number, frame, Image::Gpu(picture.clone()), false);
+            }
         }
         Ok(true)
     }
 
-    /// Makes sure that the scene is in the GPU's memory.
-    fn upload(&mut self, gpu: &Arc<Gpu>, scene: &Arc<Scene>) -> Result<(), BackendError> {
-        let there = self.uploaded.as_ref().is_some_and(|uploaded| {
+    /// The scene in the GPU's memory.
+    fn upload(&mut self, gpu: &Arc<Gpu>, scene: &Arc<Scene>) -> Result<&mut Uploaded, BackendError> {
+        let there = self.uploaded.take().filter(|uploaded| {
             std::ptr::eq(uploaded.gpu.as_ptr(), Arc::as_ptr(gpu))
                 && std::ptr::eq(uploaded.scene.as_ptr(), Arc::as_ptr(scene))
         });
-        if !there {
-            // First of all the old one goes: both may not fit.
-            self.uploaded = None;
-            self.uploaded = Some(Uploaded {
+        // An old one is gone by now: both may not fit.
+        let uploaded = match there {
+            Some(uploaded) => uploaded,
+            None => Uploaded {
                 gpu: Arc::downgrade(gpu),
                 scene: Arc::downgrade(scene),
                 there: gpu.upload(scene)?,
-            });
-        }
-        Ok(())
+                pace: Pace::guessed(scene.is_plain()),
+            },
+        };
+        Ok(self.uploaded.insert(uploaded))
     }
 
     /// A picture in the GPU's memory that nobody looks at.
@@ -235,7 +273,7 @@ impl Worker {
             Engine::Cpu => Cpu::new(task.scene.clone()).render(&frame, &silent)?,
             Engine::Gpu(gpu) => {
                 let picture = self.spare_picture(gpu, frame.size().into())?;
-                self.passes(task, gpu, &picture, &frame, false)?;
+                self.refine(task, gpu, &picture, &frame, None)?;
                 Picture::of_sums(picture.width, picture.height, gpu.read_picture(&picture)?)
             }
         };

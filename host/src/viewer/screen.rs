@@ -4,6 +4,7 @@ use super::compose::compose;
 use super::gpu_screen::GpuScreen;
 use super::notice::Image;
 use super::overlay::Overlay;
+use super::showing::Showing;
 use super::software_screen::SoftwareScreen;
 use crate::backend::BackendError;
 use crate::backend::gpu::Gpu;
@@ -63,11 +64,19 @@ impl Screen {
     ///
     /// # Errors
     /// [`ScreenError`], see there.
-    pub fn draw(&mut self, image: &Image, overlay: &Overlay, size: [u32; 2]) -> Result<bool, ScreenError> {
+    pub fn draw(
+        &mut self,
+        image: &Image,
+        overlay: &Overlay,
+        showing: &Showing,
+        size: [u32; 2],
+    ) -> Result<bool, ScreenError> {
         match (self, image) {
-            (Screen::Software(screen), Image::Cpu(picture)) => screen.draw(picture, overlay, size).map(|()| true),
+            (Screen::Software(screen), Image::Cpu(picture)) => {
+                screen.draw(picture, overlay, showing, size).map(|()| true)
+            }
             (Screen::Software(_), Image::Gpu(_)) => Ok(true),
-            (Screen::Gpu(screen), _) => screen.draw(image, overlay, size),
+            (Screen::Gpu(screen), _) => screen.draw(image, overlay, showing, size),
         }
     }
 
@@ -75,13 +84,19 @@ impl Screen {
     ///
     /// # Errors
     /// [`ScreenError::Backend`] where the GPU fails.
-    pub fn screenshot(&mut self, image: &Image, overlay: &Overlay, size: [u32; 2]) -> Result<Vec<u8>, ScreenError> {
+    pub fn screenshot(
+        &mut self,
+        image: &Image,
+        overlay: &Overlay,
+        showing: &Showing,
+        size: [u32; 2],
+    ) -> Result<Vec<u8>, ScreenError> {
         match (self, image) {
-            (Screen::Gpu(screen), _) => screen.screenshot(image, overlay, size),
+            (Screen::Gpu(screen), _) => screen.screenshot(image, overlay, showing, size),
             (Screen::Software(_), Image::Gpu(_)) => Ok(Vec::new()),
             (Screen::Software(_), Image::Cpu(picture)) => {
                 let mut pixels = vec![0; size[0] as usize * size[1] as usize];
-                compose(picture, overlay, size, &mut pixels);
+                compose(picture, overlay, showing, size, &mut pixels);
                 Ok(pixels
                     .into_iter()
                     .flat_map(|pixel: u32| {

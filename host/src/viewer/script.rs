@@ -111,6 +111,7 @@ mod tests {
             print
             wait settled
             wait frames 3
+            wait reloaded
             wait milliseconds 250
             expect first-picture 1000
             expect backend gpu
@@ -145,6 +146,7 @@ mod tests {
                 Step::Print,
                 Step::WaitSettled,
                 Step::WaitFrames(3),
+                Step::WaitReloaded,
                 Step::WaitMilliseconds(250),
                 Step::Expect(Expectation::FirstPicture(1000)),
                 Step::Expect(Expectation::Gpu(true)),

@@ -3,6 +3,7 @@
 use super::compose::compose;
 use super::overlay::Overlay;
 use super::screen::ScreenError;
+use super::showing::Showing;
 use crate::picture::Picture;
 use softbuffer::{Context, SoftBufferError, Surface};
 use std::num::NonZeroU32;
@@ -30,13 +31,19 @@ impl SoftwareScreen {
     ///
     /// # Errors
     /// [`ScreenError::Software`] where the window system refuses.
-    pub fn draw(&mut self, picture: &Picture, overlay: &Overlay, size: [u32; 2]) -> Result<(), ScreenError> {
+    pub fn draw(
+        &mut self,
+        picture: &Picture,
+        overlay: &Overlay,
+        showing: &Showing,
+        size: [u32; 2],
+    ) -> Result<(), ScreenError> {
         let (Some(width), Some(height)) = (NonZeroU32::new(size[0]), NonZeroU32::new(size[1])) else {
             return Ok(());
         };
         self.surface.resize(width, height).map_err(failed)?;
         let mut buffer = self.surface.buffer_mut().map_err(failed)?;
-        compose(picture, overlay, size, &mut buffer);
+        compose(picture, overlay, showing, size, &mut buffer);
         self.window.pre_present_notify();
         buffer.present().map_err(failed)
     }

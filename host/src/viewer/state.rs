@@ -1,5 +1,6 @@
 //! What the window remembers about the work of others.
 
+use super::draft::Draft;
 use crate::backend::gpu::Gpu;
 use crate::source::Source;
 use std::sync::Arc;
@@ -12,8 +13,8 @@ pub enum Work {
     Idle,
     /// A picture for the window.
     Show {
-        /// Edge of the square of the window's pixels that one of its pixels covers.
-        edge: u32,
+        /// How it is simplified.
+        draft: Draft,
         /// Whether the GPU renders it.
         on_gpu: bool,
     },
@@ -21,12 +22,14 @@ pub enum Work {
     Save,
 }
 
-/// A mesh on its way.
+/// A scene on its way.
 #[derive(Clone, Debug)]
 pub struct Loading {
     pub source: Source,
     pub stage: &'static str,
     pub fraction: f32,
+    /// Whether it is what is shown already, read again.
+    pub is_reload: bool,
 }
 
 /// A sentence for the person.
@@ -34,6 +37,8 @@ pub struct Loading {
 pub struct Message {
     pub text: String,
     pub is_warning: bool,
+    /// Whether it says why something was not loaded, and is no longer true when something is.
+    pub is_about_load: bool,
     pub until: Instant,
 }
 

@@ -1,6 +1,6 @@
 //! A picture to render, and what for.
 
-use super::schedule::Quality;
+use super::draft::Draft;
 use crate::backend::gpu::Gpu;
 use crate::sampling::Samples;
 use crate::scene::Scene;
@@ -41,12 +41,22 @@ pub enum Purpose {
         /// Its number.
         number: u64,
         /// How good it is to be.
-        quality: Quality,
-        /// Whether a picture with one sample at all pixels is to come first.
-        preview: bool,
+        effort: Effort,
     },
     /// To be saved in a file, or in a folder under the next free name.
     Save(Destination),
+}
+
+/// How good a picture is to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    /// Simplified, so that it is there soon.
+    Draft(Draft),
+    /// As it is wanted.
+    Full {
+        /// Whether a picture with one sample at all pixels is to come first.
+        preview: bool,
+    },
 }
 
 /// Where a saved picture goes.
@@ -69,26 +79,21 @@ pub struct Plan {
 impl Plan {
     /// The plan of a task; none for one that saves.
     pub fn new(task: &Task) -> Option<Self> {
-        let Purpose::Show {
-            number,
-            quality,
-            preview,
-        } = task.purpose
-        else {
+        let Purpose::Show { number, effort } = task.purpose else {
             return None;
         };
+        let frame = |draft: &Draft| {
+            let [width, height] = draft.size(task.size);
+            draft.simplified(&task.view).frame(&task.scene, width, height)
+        };
         let [width, height] = task.size;
-        let frame = |samples| View { samples, ..task.view }.frame(&task.scene, width, height);
-        let mut pictures = Vec::new();
-        match quality {
-            Quality::Draft => pictures.push((frame(Samples::One), false)),
-            Quality::Final => {
-                if preview && task.view.samples != Samples::One {
-                    pictures.push((frame(Samples::One), false));
-                }
-                pictures.push((frame(task.view.samples), true));
-            }
-        }
+        let wanted = task.view.frame(&task.scene, width, height);
+        let frames = match effort {
+            Effort::Draft(draft) => vec![frame(&draft)],
+            Effort::Full { preview: true } if task.view.samples != Samples::One => vec![frame(&Draft::FINE), wanted],
+            Effort::Full { .. } => vec![wanted],
+        };
+        let pictures = frames.into_iter().map(|frame| (frame, frame == wanted)).collect();
         Some(Plan { number, pictures })
     }
 }

@@ -1,10 +1,11 @@
 //! What the renderer is given to do, and when.
 
 use super::application::Application;
-use super::pace::draft_size;
+use super::draft::Draft;
 use super::schedule::{Decision, Quality};
 use super::state::{GpuState, Work};
-use super::task::{Destination, Engine, Purpose, Task};
+use super::task::{Destination, Effort, Engine, Purpose, Task};
+use crate::stereo::StereoMode;
 use std::time::Instant;
 
 impl Application {
@@ -35,23 +36,26 @@ impl Application {
                 let engine = self.engine();
                 let on_gpu = matches!(engine, Engine::Gpu(_));
                 let full = self.session.size;
-                let edge = match quality {
-                    Quality::Draft => self.paces[usize::from(on_gpu)].coarseness(full),
-                    Quality::Final => 1,
+                let view = self.session.view;
+                let draft = match quality {
+                    Quality::Draft => self.paces[usize::from(on_gpu)].draft(&view, full),
+                    Quality::Final => Draft::FINE,
                 };
+                let effort = match quality {
+                    Quality::Draft => Effort::Draft(draft),
+                    Quality::Final => Effort::Full {
+                        preview: self.last_draft != Draft::FINE,
+                    },
+                };
+                self.last_draft = draft;
                 let number = self.schedule.started(quality);
-                let is_coarse = self.image.as_ref().is_none_or(|image| image.size() != full);
-                self.work = Work::Show { edge, on_gpu };
+                self.work = Work::Show { draft, on_gpu };
                 self.renderer.render(Task {
                     engine,
                     scene,
-                    view: self.session.view,
-                    size: draft_size(full, edge),
-                    purpose: Purpose::Show {
-                        number,
-                        quality,
-                        preview: is_coarse,
-                    },
+                    view,
+                    size: full,
+                    purpose: Purpose::Show { number, effort },
                 });
                 None
             }
@@ -60,11 +64,20 @@ impl Application {
 
     /// The task to save the picture as it is wanted now.
     pub(super) fn save_task(&self, destination: Destination) -> Option<Task> {
+        let mut view = self.session.view;
+        let mut size = self.session.size.map(|side| side.max(1));
+        // In a file there are no turns: both whole pictures stand side by side.
+        if let Some(stereo) = &mut view.stereo
+            && stereo.mode == StereoMode::Sequential
+        {
+            stereo.mode = StereoMode::SideBySide;
+            size[0] *= 2;
+        }
         Some(Task {
             engine: self.engine(),
             scene: self.scene.clone()?,
-            view: self.session.view,
-            size: self.session.size.map(|side| side.max(1)),
+            view,
+            size,
             purpose: Purpose::Save(destination),
         })
     }

@@ -2,11 +2,14 @@
 //!
 //! Oracle: the offline picture of the same view. `xvfb-run -a -s '-screen 0 1600x1200x24'` makes a display.
 
+#![cfg(test)]
+
+mod files;
+mod look;
+mod start;
 mod window;
 
 use oktant::view::View;
-use oktant_shared::orbit::Up;
-use std::time::{Duration, Instant};
 use window::{Display, Image, Session, agreement, offline, rendered_by_the_command, run, screen_of};
 
 /// Pixels of the window in most of these tests: small, because lavapipe is slow.
@@ -62,7 +65,7 @@ fn session_matches_the_offline_picture(backend: &str) {
     let without = rendered_by_the_command(&session, &view, [640, 480]);
     let covered = 1.0 - agreement(&help, &without);
     assert!(
-        (0.1..0.6).contains(&covered),
+        (0.1..0.8).contains(&covered),
         "the overlay covers {covered} of the window"
     );
 }
@@ -141,184 +144,6 @@ fn pointer_and_keyboard_do_what_the_script_does() {
     display.key("Escape");
     let report = window.finish();
     assert!(report.standard_error.contains("oktant-0002.png"), "{report}");
-}
-
-#[test]
-#[ignore = "needs a display"]
-fn the_first_picture_comes_within_a_second() {
-    let session = Session::new();
-    // Once to warm the disk's cache.
-    let report = || {
-        run(
-            &session,
-            &["--backend", "cpu"],
-            "wait frames 1\nprint\nexpect first-picture 1000",
-        )
-    };
-    report();
-    let start = Instant::now();
-    let report = report();
-    let all = start.elapsed();
-    println!(
-        "first picture after {} ms, window closed after {all:?}",
-        report.value("first-picture")
-    );
-    assert!(
-        all < Duration::from_millis(1500),
-        "the clock starts when the process does: {all:?}"
-    );
-}
-
-#[test]
-#[ignore = "needs a display"]
-fn without_a_real_gpu_the_cpu_renders_and_says_so() {
-    let session = Session::new();
-    let report = run(&session, &["--size", SIZE], "wait settled\nprint");
-    if report.value("backend").starts_with("CPU") {
-        let sentence = report
-            .standard_error
-            .lines()
-            .find(|line| line.contains("the CPU renders"));
-        assert!(
-            sentence.is_some_and(|line| line.starts_with("There is no GPU to use")),
-            "{report}"
-        );
-    } else {
-        println!("there is a GPU here: {}", report.value("backend"));
-    }
-}
-
-#[test]
-#[ignore = "needs a display"]
-fn without_any_driver_the_cpu_shows_the_picture() {
-    let session = Session::new();
-    let without_driver = |arguments: &[&str], script: &str| {
-        let script = session.write("script.txt", script);
-        let mut command = session.command(&["view", "--size", SIZE, "--script", &script]);
-        command.args(arguments);
-        // The first name is the current one, the second what older loaders read.
-        command.env("VK_DRIVER_FILES", "none").env("VK_ICD_FILENAMES", "none");
-        let output = command.output().expect("the program starts");
-        (
-            output.status.code(),
-            String::from_utf8_lossy(&output.stderr).into_owned(),
-        )
-    };
-    let script = "wait settled
-        expect backend cpu
-        key B
-        wait settled
-        expect message There is no GPU to use
-        expect backend cpu";
-    let (code, standard_error) = without_driver(&[], script);
-    assert_eq!(code, Some(0), "{standard_error}");
-    assert_eq!(standard_error.matches("the CPU renders").count(), 2, "{standard_error}");
-    let (code, standard_error) = without_driver(&["--backend", "gpu"], "wait settled");
-    assert_eq!(code, Some(1), "{standard_error}");
-    assert!(standard_error.contains("use --backend cpu"), "{standard_error}");
-}
-
-#[test]
-#[ignore = "needs a display"]
-fn no_display_is_a_sentence_and_a_picture() {
-    for display in [None, Some(""), Some(":4711"), Some("nowhere:0")] {
-        let session = Session::new();
-        let mut command = session.command(&[]);
-        command.env_remove("WAYLAND_DISPLAY").env_remove("DISPLAY");
-        if let Some(display) = display {
-            command.env("DISPLAY", display);
-        }
-        let output = command.output().expect("the program starts");
-        let standard_error = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{display:?}: {standard_error}");
-        assert!(
-            standard_error.starts_with("There is no display"),
-            "{display:?}: {standard_error}"
-        );
-        assert!(!standard_error.contains("panicked"), "{standard_error}");
-        let picture = session.await_picture("oktant.png");
-        assert_eq!((picture.width(), picture.height()), (1280, 968));
-    }
-}
-
-#[test]
-#[ignore = "needs a display"]
-fn scripts_that_fail_say_where() {
-    let session = Session::new();
-    let script = session.write("script.txt", "print\n\nwait setled\n");
-    let report = session.start_with(&["view", "--script", &script]).wait();
-    assert_eq!(report.code, Some(2), "{report}");
-    assert!(
-        report.standard_error.contains("script.txt, line 3: \"setled\"")
-            && report.standard_error.contains("did you mean \"settled\""),
-        "{report}"
-    );
-    let report = session.start_with(&["view", "--script", "missing.txt"]).wait();
-    assert_eq!(report.code, Some(2), "{report}");
-
-    let script = session.write("script.txt", "wait settled\nexpect triangles 3\n");
-    let report = session
-        .start_with(&["view", "balls", "--backend", "cpu", "--size", SIZE, "--script", &script])
-        .wait();
-    assert_eq!(report.code, Some(1), "{report}");
-    assert!(
-        report
-            .standard_error
-            .contains("script.txt, line 2: the mesh has 4032 triangles"),
-        "{report}"
-    );
-
-    let report = session.start_with(&["view", "missing.ply", "--backend", "cpu"]).wait();
-    assert_eq!(report.code, Some(1), "{report}");
-    assert!(report.standard_error.contains("missing.ply"), "{report}");
-}
-
-#[test]
-#[ignore = "needs a display"]
-fn dropped_files_are_opened_or_refused() {
-    let session = Session::new();
-    let triangle = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
-        element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-    session.write("triangle.ply", triangle);
-    session.write("broken.ply", &triangle[..80]);
-    session.write("empty.ply", &triangle.replace("0 1 0\n", "2 0 0\n"));
-    let report = run(
-        &session,
-        &["--backend", "cpu", "--size", SIZE],
-        "wait settled
-        open missing.ply
-        wait settled
-        expect message missing.ply
-        expect triangles 69451
-        open broken.ply
-        wait settled
-        expect message broken.ply
-        expect triangles 69451
-        open empty.ply
-        wait settled
-        expect message empty.ply
-        expect triangles 69451
-        screenshot refused.png
-        drag left 100 0
-        open triangle.ply
-        wait settled
-        expect triangles 1
-        key I
-        wait milliseconds 8500
-        wait settled
-        screenshot opened.png
-        print",
-    );
-    let view = report.view();
-    assert_eq!(
-        (view.camera, view.up),
-        (View::default().camera, Up::Y),
-        "a new mesh is seen from the first view"
-    );
-    assert_ne!(
-        session.await_picture("opened.png"),
-        session.await_picture("refused.png")
-    );
 }
 
 #[test]

@@ -1,19 +1,19 @@
 //! Starting the program, looking at its window and reaching into it.
 
 mod display;
+mod report;
 
 pub use display::{Display, screen_of};
+pub use report::{Report, value_in};
 
 use oktant::backend::Backend;
 use oktant::backend::cpu::Cpu;
 use oktant::mesh_source::MeshSource;
 use oktant::octree::OctreeOptions;
 use oktant::progress::silent;
-use oktant::sampling::Samples;
 use oktant::scene::Scene;
-use oktant::view::{Place, Shading, View};
+use oktant::view::{Shading, View};
 use oktant_tests::program::oktant;
-use std::fmt;
 use std::io::Read;
 use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, LazyLock};
@@ -43,6 +43,13 @@ impl Session {
     pub fn write(&self, name: &str, text: &str) -> String {
         std::fs::write(self.folder.path().join(name), text).expect("the folder can be written");
         name.into()
+    }
+
+    /// Saves a file as many editors do: under another name first.
+    pub fn replace(&self, name: &str, text: &str) {
+        let file = |name: &str| self.folder.path().join(name);
+        self.write("new", text);
+        std::fs::rename(file("new"), file(name)).expect("files can be renamed");
     }
 
     /// The program with arguments, in the folder.
@@ -136,70 +143,6 @@ impl Drop for Running {
     }
 }
 
-/// What a program left behind.
-pub struct Report {
-    pub code: Option<i32>,
-    pub standard_output: String,
-    pub standard_error: String,
-}
-
-impl Report {
-    /// What the step `print` said of something, the last time.
-    pub fn value(&self, name: &str) -> String {
-        value_in(&self.standard_output, name)
-    }
-
-    /// The view that the step `print` printed.
-    pub fn view(&self) -> View {
-        let numbers = |name: &str| -> Vec<f32> {
-            let value = self.value(name);
-            value.split(' ').map(|word| word.parse().expect("a number")).collect()
-        };
-        let place = |name: &str| match numbers(name)[..] {
-            [azimuth, elevation, distance] => Place {
-                azimuth,
-                elevation,
-                distance,
-            },
-            _ => panic!("{name} in {self}"),
-        };
-        View {
-            camera: place("camera"),
-            light: place("light"),
-            target: glam::Vec3::from_slice(&numbers("target")),
-            shading: match self.value("shading").as_str() {
-                "flat" => Shading::Flat,
-                _ => Shading::Phong,
-            },
-            samples: match self.value("samples").rsplit(' ').next() {
-                Some("4") => Samples::Four,
-                Some("16") => Samples::Sixteen,
-                _ => Samples::One,
-            },
-            ..View::default()
-        }
-    }
-}
-
-impl fmt::Display for Report {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "exit code {:?}\n{}\n{}",
-            self.code, self.standard_output, self.standard_error
-        )
-    }
-}
-
-/// What stands after a name at the beginning of a line, the last time.
-pub fn value_in(text: &str, name: &str) -> String {
-    text.lines()
-        .rev()
-        .find_map(|line| line.strip_prefix(name)?.strip_prefix(' '))
-        .unwrap_or_else(|| panic!("no {name} in {text}"))
-        .into()
-}
-
 /// Plays a script to its good end.
 pub fn run(session: &Session, arguments: &[&str], script: &str) -> Report {
     session.start(arguments, script).finish()
@@ -227,7 +170,7 @@ pub fn rendered_by_the_command(session: &Session, view: &View, size: [u32; 2]) -
     session.await_picture("rendered.png")
 }
 
-/// The picture of the bunny that this very process renders.
+/// The picture of the bunny that this very process renders, with both eyes' rows where there are two.
 pub fn offline(view: &View, size: [u32; 2]) -> Image {
     static SCENE: LazyLock<Arc<Scene>> = LazyLock::new(|| {
         let mesh = MeshSource::Bunny.load(&silent).expect("the bunny is sound");
@@ -237,7 +180,18 @@ pub fn offline(view: &View, size: [u32; 2]) -> Image {
     let picture = Cpu::new(SCENE.clone())
         .render(&frame, &silent)
         .expect("the CPU renders");
-    Image::from_raw(size[0], size[1], picture.to_rgb8(&view.tone)).expect("as many pixels as asked for")
+    Image::from_raw(picture.width, picture.height, picture.to_rgb8(&view.tone)).expect("as many pixels as asked for")
+}
+
+/// Mean difference of two pictures' channels, of 255.
+pub fn difference(one: &Image, other: &Image) -> f64 {
+    assert_eq!(one.dimensions(), other.dimensions());
+    let sum: u64 = one
+        .iter()
+        .zip(other.iter())
+        .map(|(a, b)| u64::from(a.abs_diff(*b)))
+        .sum();
+    sum as f64 / one.len() as f64
 }
 
 /// Share of the pixels none of whose channels differs by more than 1 of 255; 0 for pictures of different sizes.

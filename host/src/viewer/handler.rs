@@ -1,0 +1,128 @@
+//! What the event loop calls.
+
+use super::ViewerError;
+use super::application::Application;
+use super::event::Event;
+use super::notice::Notice;
+use super::screen::Screen;
+use super::state::GpuState;
+use std::sync::Arc;
+use std::time::Instant;
+use winit::application::ApplicationHandler;
+use winit::dpi::PhysicalSize;
+use winit::event::WindowEvent;
+use winit::event_loop::{ActiveEventLoop, ControlFlow};
+use winit::window::{Window, WindowId};
+
+impl Application {
+    /// Puts off what can wait and says when to wake up.
+    fn next_wake(&mut self, now: Instant) -> Option<Instant> {
+        if self.message.as_ref().is_some_and(|message| message.until <= now) {
+            self.message = None;
+            self.redraw();
+        }
+        if self.figures.expiry().is_some_and(|expiry| expiry <= now) {
+            self.figures.forget(now);
+            self.redraw();
+        }
+        if self.retry.is_some_and(|retry| retry <= now) {
+            self.retry = None;
+            self.redraw();
+        }
+        if self.next_turn.is_some_and(|turn| turn <= now) {
+            self.take_turn();
+        }
+        let playing = self.play(now);
+        let working = self.work(now);
+        let waiting = self.message.as_ref().map(|message| message.until);
+        [
+            playing,
+            working,
+            waiting,
+            self.figures.expiry(),
+            self.retry,
+            self.next_turn,
+        ]
+        .into_iter()
+        .flatten()
+        .min()
+    }
+}
+
+impl ApplicationHandler<Notice> for Application {
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        if self.window.is_some() {
+            return;
+        }
+        let [width, height] = self.session.size;
+        let attributes = Window::default_attributes()
+            .with_title("oktant")
+            .with_inner_size(PhysicalSize::new(width, height));
+        let window = match event_loop.create_window(attributes) {
+            Ok(window) => Arc::new(window),
+            Err(error) => {
+                self.fail(ViewerError::Window(error.to_string()));
+                event_loop.exit();
+                return;
+            }
+        };
+        match Screen::software(window.clone()) {
+            Ok(screen) => self.screen = Some(screen),
+            // A display with ten bits a colour, say: a GPU may still draw on it.
+            Err(_) if matches!(self.gpu, GpuState::Opening { .. }) => {}
+            Err(error) => {
+                self.fail(error);
+                event_loop.exit();
+                return;
+            }
+        }
+        let size = window.inner_size();
+        let resized = Event::Resized {
+            size: [size.width, size.height],
+            scale: window.scale_factor(),
+        };
+        self.window = Some(window);
+        self.take_event(&resized, Instant::now());
+        self.redraw();
+    }
+
+    fn user_event(&mut self, _: &ActiveEventLoop, notice: Notice) {
+        self.take_notice(notice, Instant::now());
+    }
+
+    fn window_event(&mut self, _: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        let now = Instant::now();
+        if event == WindowEvent::RedrawRequested {
+            self.draw(now);
+            return;
+        }
+        let Some(event) = Event::from_winit(&event, self.session.size, self.session.scale) else {
+            return;
+        };
+        // A script is not disturbed by the hand that happens to hold the mouse.
+        let is_window = matches!(event, Event::Resized { .. } | Event::CloseRequested);
+        if self.player.is_none() || is_window {
+            self.take_event(&event, now);
+        }
+        if is_window {
+            self.redraw();
+        }
+    }
+
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        let wake = self.next_wake(Instant::now());
+        if self.quits {
+            event_loop.exit();
+            return;
+        }
+        event_loop.set_control_flow(wake.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
+    }
+
+    fn exiting(&mut self, _: &ActiveEventLoop) {
+        self.renderer.cancel();
+        // The screen goes before the window, and both before the event loop.
+        self.image = None;
+        self.screen = None;
+        self.window = None;
+    }
+}

@@ -1,0 +1,51 @@
+//! What a script is told of the window.
+
+use super::application::Application;
+use super::caption::name;
+use std::time::Instant;
+
+impl Application {
+    /// The figures and the view, a line each: a name and its values.
+    pub(super) fn report(&self, now: Instant) -> String {
+        let caption = self.caption(now);
+        let view = &self.session.view;
+        let mut text = String::new();
+        let mut line = |name: &str, value: String| text.extend([name, " ", &value, "\n"]);
+        let number = |value: Option<f64>| value.map_or_else(|| "-".into(), |value| format!("{value:.3}"));
+        let first = self.figures.first_picture.map(|first| first.as_secs_f64() * 1e3);
+        line("backend", caption.backend);
+        line(
+            "triangles",
+            caption
+                .triangles
+                .map_or_else(|| "-".into(), |triangles| triangles.to_string()),
+        );
+        line("size", format!("{} {}", caption.size[0], caption.size[1]));
+        line("samples", format!("{} of {}", caption.samples[1], caption.samples[0]));
+        line("shading", name(&view.shading));
+        line("depth", view.depth.to_string());
+        line("tone", name(&view.tone.curve));
+        line("exposure", view.tone.exposure.to_string());
+        line(
+            "stereo",
+            view.stereo.map_or_else(|| "none".into(), |stereo| name(&stereo.mode)),
+        );
+        line("eye-distance", self.session.eye_distance().to_string());
+        for (name, place) in [("camera", view.camera), ("light", view.light)] {
+            line(
+                name,
+                format!("{} {} {}", place.azimuth, place.elevation, place.distance),
+            );
+        }
+        line(
+            "target",
+            format!("{} {} {}", view.target.x, view.target.y, view.target.z),
+        );
+        line("first-picture", number(first));
+        line("frames", self.figures.frames.to_string());
+        line("frames-a-second", number(caption.frames_a_second));
+        line("kernel-milliseconds", number(caption.kernel));
+        line("megarays-a-second", number(caption.megarays_a_second));
+        text
+    }
+}
