@@ -21,7 +21,10 @@ fn commands(text: &str) -> Vec<Vec<&str>> {
 /// The pictures that are shown, relative to the folder of the page.
 fn pictures(text: &str) -> Vec<&str> {
     let links = text.split("](").skip(1).filter_map(|rest| rest.split_once(')'));
-    links.map(|(link, _)| link).filter(|link| link.ends_with(".png")).collect()
+    links
+        .map(|(link, _)| link)
+        .filter(|link| link.ends_with(".png"))
+        .collect()
 }
 
 #[test]
