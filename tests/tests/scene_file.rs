@@ -101,6 +101,53 @@ fn broken_scenes_are_explained() {
 }
 
 #[test]
+fn the_page_about_scene_files_is_complete() {
+    let page = fs::read_to_string(project().join("docs/scene-files.md")).unwrap();
+    let examples: Vec<_> = page.split("```toml\n").skip(1).collect();
+    assert_eq!(examples.len(), 2);
+    for example in examples {
+        read(example.split("```").next().unwrap());
+    }
+    // Who asks for a field unlike all others is told which there are.
+    let odd = "qqqqqqqqqqqqqqqq = 1\n";
+    for table in [
+        "",
+        "[camera]",
+        "[environment]",
+        "[render]",
+        "[stereo]",
+        "[materials.NAME]",
+        "[textures.NAME]",
+        "[[mesh]]",
+        "[[sphere]]",
+        "[[box]]",
+        "[[quad]]",
+        "[[checkerboard]]",
+        "[[lathe]]",
+        "[[plane]]",
+        "[[light]]",
+    ] {
+        let error = read_in(&tempdir().unwrap(), &format!("{table}\n{odd}"))
+            .unwrap_err()
+            .to_string();
+        let (_, fields) = error.split_once("; there are ").unwrap();
+        let section = &page[page
+            .find(&format!("`{table}`"))
+            .filter(|_| !table.is_empty())
+            .unwrap_or_default()..];
+        for field in fields
+            .split([',', ' '])
+            .filter(|word| !word.is_empty() && *word != "and")
+        {
+            assert!(
+                section.contains(&format!("`{field}`")) || section.contains(&format!("[{field}")),
+                "{field} of {table} is not on the page"
+            );
+        }
+    }
+}
+
+#[test]
 fn files_that_are_no_scenes_are_refused() {
     let folder = tempdir().unwrap();
     let missing = scene_file::read(&folder.path().join("missing.toml"), &silent).unwrap_err();

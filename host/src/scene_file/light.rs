@@ -117,7 +117,7 @@ impl Light {
                 built.edge_u = direction(self.edge_u, "an edge, edge_u")?;
                 built.edge_v = direction(self.edge_v, "an edge, edge_v")?;
                 built.samples_per_side = self.samples_per_side.map_or(4, |samples| samples.0);
-                if !(built.edge_u.cross(built.edge_v).length() > 0.0) {
+                if built.edge_u.cross(built.edge_v).length() == 0.0 {
                     return Err(Fault::new(place, Reason::NoArea));
                 }
             }

@@ -76,7 +76,7 @@ fn corner(side: u32, part: u32, size: Vec2, height: f32) -> Vec3 {
 
 /// The colour of a step: aisles between blocks of seats.
 fn seat(side: u32, part: u32, step: u32) -> [u8; 3] {
-    if part % 8 == 0 || step % 20 == 19 {
+    if part.is_multiple_of(8) || step % 20 == 19 {
         CONCRETE
     } else {
         SEATS[((part / 8 + step / 20 + side) % 3) as usize]
