@@ -1,0 +1,136 @@
+//! What becomes of materials, textures, camera and lights.
+
+use super::{read, read_in};
+use glam::{Vec3, vec3};
+use oktant::octree::OctreeOptions;
+use oktant::progress::silent;
+use oktant::scene::Scene;
+use oktant_shared::light::{AREA, DIRECTIONAL};
+use oktant_shared::material::{FRESNEL, PHONG_HIGHLIGHTS, SMOOTH_NORMALS};
+use oktant_shared::orbit::Up;
+use oktant_shared::texture::{CHECKERBOARD, SHARED_EXPONENT_IMAGE, SRGB_IMAGE};
+use std::fs;
+use tempfile::tempdir;
+
+#[test]
+fn paths_are_relative_to_the_scene() {
+    let folder = tempdir().unwrap();
+    fs::create_dir(folder.path().join("parts")).unwrap();
+    let triangle = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+                    element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    fs::write(folder.path().join("parts/triangle.ply"), triangle).unwrap();
+    image::RgbImage::from_pixel(2, 3, image::Rgb([255, 0, 0]))
+        .save(folder.path().join("parts/red.png"))
+        .unwrap();
+    image::Rgb32FImage::from_pixel(4, 2, image::Rgb([3.0, 0.5, -1.0]))
+        .save(folder.path().join("parts/sky.exr"))
+        .unwrap();
+    let content = "[environment]\nimage = 'parts/sky.exr'\nstrength = 2\nrotation = 90\n\
+                   [textures.red]\nfile = 'parts/red.png'\n[[mesh]]\nfile = 'parts/triangle.ply'\n\
+                   [[mesh]]\nfile = 'parts/triangle.ply'\ntranslate = [2, 0, 0]\n";
+    let setting = read_in(&folder, content).unwrap();
+    let mut names: Vec<_> = setting
+        .files
+        .iter()
+        .map(|file| file.strip_prefix(folder.path()).unwrap().to_str().unwrap())
+        .collect();
+    names.sort_unstable();
+    assert_eq!(
+        names,
+        ["parts/red.png", "parts/sky.exr", "parts/triangle.ply", "scene.toml"]
+    );
+    let model = &setting.model;
+    assert_eq!(model.mesh.triangles, [[0, 1, 2], [3, 4, 5]]);
+    assert_eq!(model.mesh.positions[4], vec3(3.0, 0.0, 0.0));
+    let kinds: Vec<_> = model.textures.iter().map(|texture| texture.kind).collect();
+    assert_eq!(kinds, [SRGB_IMAGE, SHARED_EXPONENT_IMAGE]);
+    assert_eq!((model.environment.texture, model.environment.strength), (1, 2.0));
+    assert_eq!(model.environment.rotation, 0.25);
+    assert_eq!((model.texels.len(), model.texels[0]), (6 + 8, 255));
+    let sky = model.textures[1].color(&model.texels, glam::vec2(0.5, 0.5));
+    assert!(sky.abs_diff_eq(vec3(3.0, 0.5, 0.0), 0.01), "{sky}");
+}
+
+#[test]
+fn materials_are_as_described() {
+    let content = "[textures.squares]\nkind = 'checkerboard'\ncolors = ['#102030', 1]\nrepeats = 4\n\
+                   [materials.plain]\n\
+                   [materials.mirror]\nmirror = 0.6\nhighlight = 'phong'\nsmooth = false\n\
+                   [materials.glass]\ntransmission = [0.9, 0.8, 0.7]\nabsorption = 3\nior = 1.33\npriority = 7\n\
+                   [materials.tiles]\ntexture = 'squares'\nbump = 'squares'\nbump_height = -0.2\n\
+                   [materials.unused]\n\
+                   [[sphere]]\nmaterial = 'plain'\n[[sphere]]\nmaterial = 'mirror'\n\
+                   [[sphere]]\nmaterial = 'glass'\n[[sphere]]\nmaterial = 'tiles'\n[[sphere]]\n";
+    let model = read(content).model;
+    let [plain, mirror, glass, tiles, clay] = model.materials[..] else {
+        panic!("{} materials", model.materials.len());
+    };
+    assert_eq!((plain.base, plain.diffuse, plain.flags & FRESNEL), (Vec3::ONE, 0.85, 0));
+    // What is mirrored is neither reflected evenly nor lit by ambient light.
+    assert!((mirror.diffuse - 0.85 * 0.4).abs() < 1e-6 && (mirror.ambient - 0.4).abs() < 1e-6);
+    assert_eq!(mirror.flags & (PHONG_HIGHLIGHTS | SMOOTH_NORMALS), PHONG_HIGHLIGHTS);
+    assert_eq!(
+        (glass.transmission, glass.absorption),
+        (vec3(0.9, 0.8, 0.7), Vec3::splat(3.0))
+    );
+    assert_eq!((glass.ior, glass.priority, glass.flags & FRESNEL), (1.33, 7, FRESNEL));
+    assert_eq!((tiles.texture, tiles.bump, tiles.bump_height), (0, 0, -0.2));
+    assert!(clay.base.x < 1.0);
+    let squares = model.textures[0];
+    assert_eq!(
+        (squares.kind, squares.width, squares.height),
+        (CHECKERBOARD, 0x30_20_10, 0xff_ff_ff)
+    );
+    assert_eq!(squares.repeats, 4.0);
+    assert_eq!(model.mesh.coordinates.len(), model.mesh.positions.len());
+}
+
+/// Wherever a view has the light and the camera, the frame puts them where the file does.
+#[test]
+fn cameras_and_lights_are_where_the_file_has_them() {
+    for up in [Up::Y, Up::Z] {
+        let head = format!(
+            "up = '{}'\n[camera]\nposition = [3, -4, 5]\nlook_at = [1, 2, 0.5]\nfov = 25\n[[sphere]]\nradius = 3\n[[light]]\n",
+            if up == Up::Y { "y" } else { "z" }
+        );
+        let frame = |light: &str| {
+            let setting = read(&format!("{head}{light}\n[[light]]\nposition = [9, 9, 9]\n"));
+            let scene = Scene::of_model(setting.model, &OctreeOptions::default(), &silent).unwrap();
+            assert_eq!(scene.light_count, 1);
+            setting.view.frame(&scene, 640, 480)
+        };
+        let point = frame("position = [-7, 8, 2]\nintensity = 3\ncolor = [1, 0.5, 0]");
+        assert!(
+            point.camera.eye.distance(vec3(3.0, -4.0, 5.0)) < 1e-5,
+            "{}",
+            point.camera.eye
+        );
+        let forward = (vec3(1.0, 2.0, 0.5) - vec3(3.0, -4.0, 5.0)).normalize();
+        assert!(point.camera.forward.distance(forward) < 1e-6);
+        assert!((point.camera.up.length() - 12.5_f32.to_radians().tan()).abs() < 1e-6);
+        assert!(point.light.position.distance(vec3(-7.0, 8.0, 2.0)) < 1e-5);
+        assert_eq!(point.light.color, vec3(3.0, 1.5, 0.0));
+        let area = frame(
+            "kind = 'area'\ncorner = [1, 5, 2]\nedge_u = [2, 0, 0]\nedge_v = [0, 0, 3]\nsamples_per_side = 3\n\
+             falloff = 'inverse-square'\nradius = 0.2",
+        );
+        assert_eq!(
+            (area.light.kind, area.light.samples_per_side, area.light.falloff_radius),
+            (AREA, 3, 0.2)
+        );
+        assert!(area.light.position.distance(vec3(1.0, 5.0, 2.0)) < 1e-5);
+        let sun = frame("kind = 'directional'\ndirection = [1, -2, 2]");
+        assert_eq!(sun.light.kind, DIRECTIONAL);
+        assert!(sun.light.position.distance(vec3(-1.0, 2.0, -2.0) / 3.0) < 1e-6);
+    }
+}
+
+#[test]
+fn defaults_are_those_of_a_mesh_alone() {
+    let setting = read("[[mesh]]\nname = 'balls'\n");
+    assert_eq!(setting.view, Default::default());
+    assert_eq!(setting.model.focus, None);
+    assert_eq!((setting.model.lights.len(), setting.size), (1, None));
+    assert!(read("light = []\n[[sphere]]\n").model.lights.is_empty());
+    assert_eq!(read("[render]\nwidth = 100\n[[sphere]]\n").size, Some([100, 968]));
+}
