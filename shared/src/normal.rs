@@ -14,7 +14,7 @@ pub fn face_normal(triangle: &Triangle) -> Vec3 {
     let edge_ac = triangle.c - triangle.a;
     // Scaled first: the product of the edges of a small triangle of a small mesh would underflow.
     let size = max_component(edge_ab.abs()) + max_component(edge_ac.abs());
-    if !(size > f32::MIN_POSITIVE) {
+    if size <= f32::MIN_POSITIVE {
         return Vec3::ZERO;
     }
     let normal = (edge_ab / size).cross(edge_ac / size);
