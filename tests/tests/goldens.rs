@@ -31,11 +31,15 @@ const CPU: Tolerance = Tolerance {
     step: 1,
     outliers: 5e-4,
 };
-/// Drivers contract and divide as they like: rays that pass an edge, or are reflected at one again and again, see
-/// something else. The scenes have many: of balls of glass, each pixel is such an edge after a few reflections.
+/// Drivers contract and divide as they like: a ray that passes an edge sees something else.
 const GPU: Tolerance = Tolerance {
     step: 2,
-    outliers: 2e-2,
+    outliers: 5e-3,
+};
+/// In the rims of the glass a ray is reflected a dozen times, and each time its rounding grows.
+const GPU_IN_GLASS: Tolerance = Tolerance {
+    step: 2,
+    outliers: 4e-2,
 };
 
 fn scenes() -> Vec<PathBuf> {
@@ -139,7 +143,13 @@ fn the_gpu_renders_the_goldens(module: ModulePath, who: &str) {
     let mut wrong = Vec::new();
     for path in scenes() {
         let actual = picture(&path, |scene| Box::new(GpuBackend::new(gpu.clone(), scene).unwrap()));
-        wrong.extend(compare(&path, &actual, &GPU, who));
+        let is_glass = path.file_stem().is_some_and(|name| name == "glass");
+        wrong.extend(compare(
+            &path,
+            &actual,
+            if is_glass { &GPU_IN_GLASS } else { &GPU },
+            who,
+        ));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
