@@ -247,6 +247,8 @@ impl Gpu {
             self.encode_render(&mut encoder, scene, picture, frame, Some(&timer))?;
             timer.finish(self, encoder)
         } else {
+            // Not to be counted, should it be made only now.
+            self.pipeline(scene.entry)?;
             let start = std::time::Instant::now();
             self.encode_render(&mut encoder, scene, picture, frame, None)?;
             self.queue.submit([encoder.finish()]);

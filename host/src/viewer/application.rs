@@ -75,6 +75,8 @@ pub struct Application {
     /// The picture to show, and whether the window shows it.
     pub(super) image: Option<Image>,
     pub(super) is_shown: bool,
+    /// Samples of each of its pixels.
+    pub(super) samples: u32,
     /// Which part of the picture is shown, and when the other one has its turn.
     pub(super) part: Part,
     pub(super) next_turn: Option<Instant>,
@@ -124,6 +126,7 @@ impl Application {
             screen: None,
             image: None,
             is_shown: false,
+            samples: 0,
             part: Part::Whole,
             next_turn: None,
             panels: Vec::new(),

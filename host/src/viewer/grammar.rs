@@ -22,7 +22,7 @@ const STEPS: [&str; 14] = [
     "quit",
 ];
 const DRAGS: [&str; 4] = ["left", "right", "middle", "shift+left"];
-const WAITS: [&str; 4] = ["settled", "frames", "reloaded", "milliseconds"];
+const WAITS: [&str; 5] = ["settled", "frames", "samples", "reloaded", "milliseconds"];
 const EXPECTATIONS: [&str; 4] = ["first-picture", "backend", "triangles", "message"];
 /// The keys that mean something.
 pub const KEYS: [&str; 20] = [
@@ -105,6 +105,7 @@ fn wait(rest: &str) -> Result<Step, String> {
         "settled" => alone("wait settled", rest, Step::WaitSettled),
         "reloaded" => alone("wait reloaded", rest, Step::WaitReloaded),
         "frames" => Ok(Step::WaitFrames(count("wait frames", rest)?)),
+        "samples" => Ok(Step::WaitSamples(count("wait samples", rest)?)),
         "milliseconds" => Ok(Step::WaitMilliseconds(count("wait milliseconds", rest)?)),
         _ => Err(unknown(word, "thing to wait for", &WAITS)),
     }

@@ -53,13 +53,13 @@ impl Application {
 
     fn take_arrival(&mut self, loading: Loading, arrival: Arrival, now: Instant) {
         let view = self.options.look.applied(arrival.view);
-        let radius = arrival.scene.focus.radius;
+        let focus = arrival.scene.focus;
         let is_first = self.scene.is_none();
         if is_first || loading.is_reload {
             let is_elsewhere = arrival.focus != self.focus;
-            self.session.update(view, radius, is_elsewhere);
+            self.session.update(view, focus, is_elsewhere);
         } else {
-            self.session.open(view, radius);
+            self.session.open(view, focus);
         }
         if let (true, None, Some(size)) = (is_first, self.options.size, arrival.size) {
             self.fit_window(size, now);

@@ -86,6 +86,7 @@ impl Application {
         };
         self.schedule.shows(rendered.number, quality);
         self.image = Some(rendered.image);
+        self.samples = rendered.samples;
         // The eye whose turn it was keeps it.
         self.part = match (rendered.is_stacked, self.part) {
             (false, _) => Part::Whole,

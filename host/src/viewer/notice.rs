@@ -70,6 +70,8 @@ pub struct Rendered {
     pub image: Image,
     /// Whether it is two, the left eye's above the right eye's.
     pub is_stacked: bool,
+    /// Samples of each of its pixels.
+    pub samples: u32,
     /// Whether it is all that is wanted.
     pub complete: bool,
 }

@@ -128,6 +128,7 @@ impl Application {
             }
             Step::WaitSettled => return wait_for(self.is_settled()),
             Step::WaitFrames(count) => return wait_for(self.figures.frames - since.frames >= *count),
+            Step::WaitSamples(count) => return wait_for(self.is_shown && u64::from(self.samples) >= *count),
             Step::WaitReloaded => return wait_for(self.reloads > since.reloads),
             Step::WaitMilliseconds(time) => return wait_for(waited >= Duration::from_millis(*time)),
             Step::Expect(expectation) => self.expect(expectation)?,

@@ -136,11 +136,12 @@ impl Worker {
         self.cancel.load(Ordering::Relaxed)
     }
 
-    fn send(&self, number: u64, frame: &Frame, image: Image, complete: bool) {
+    fn send(&self, number: u64, frame: &Frame, image: Image, samples: u32, complete: bool) {
         self.mailbox.send(Notice::Rendered(Rendered {
             number,
             image,
             is_stacked: frame.stereo == STACKED,
+            samples,
             complete,
         }));
     }
@@ -171,10 +172,16 @@ impl Worker {
                 if shows {
                     // A copy: the window keeps it while the next samples are added.
                     let copy = Picture::of_sums(picture.width, picture.height, picture.sums.clone());
-                    self.send(plan.number, &frame, Image::Cpu(Arc::new(copy)), false);
+                    self.send(plan.number, &frame, Image::Cpu(Arc::new(copy)), refinement.taken, false);
                 }
             }
-            self.send(plan.number, &frame, Image::Cpu(Arc::new(picture)), complete);
+            self.send(
+                plan.number,
+                &frame,
+                Image::Cpu(Arc::new(picture)),
+                frame.sample_count,
+                complete,
+            );
         }
     }
 
@@ -185,7 +192,7 @@ impl Worker {
             if !self.refine(task, gpu, &picture, &frame, Some(plan.number))? {
                 return Ok(());
             }
-            self.send(plan.number, &frame, Image::Gpu(picture), complete);
+            self.send(plan.number, &frame, Image::Gpu(picture), frame.sample_count, complete);
         }
         Ok(())
     }
@@ -220,7 +227,7 @@ impl Worker {
             let shows = refinement.shows(&pass);
             self.passed(refinement.taken, &pass, milliseconds);
             if let (true, Some(number)) = (shows, number) {
-                self.send(number, frame, Image::Gpu(picture.clone()), false);
+                self.send(number, frame, Image::Gpu(picture.clone()), refinement.taken, false);
             }
         }
         Ok(true)

@@ -111,6 +111,7 @@ mod tests {
             print
             wait settled
             wait frames 3
+            wait samples 20
             wait reloaded
             wait milliseconds 250
             expect first-picture 1000
@@ -146,6 +147,7 @@ mod tests {
                 Step::Print,
                 Step::WaitSettled,
                 Step::WaitFrames(3),
+                Step::WaitSamples(20),
                 Step::WaitReloaded,
                 Step::WaitMilliseconds(250),
                 Step::Expect(Expectation::FirstPicture(1000)),

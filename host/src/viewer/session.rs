@@ -6,10 +6,12 @@ mod steering;
 mod tests;
 
 use super::input::Input;
+use crate::model::Focus;
 use crate::sampling::Samples;
 use crate::stereo::{Stereo, StereoMode};
 use crate::tone::Curve;
 use crate::view::{Shading, View};
+use glam::Vec3;
 use oktant_shared::whitted::MAX_DEPTH;
 use std::path::PathBuf;
 
@@ -37,8 +39,8 @@ pub struct Session {
     pub figures: bool,
     /// The view that came with the scene, changed as the command line says.
     home: View,
-    /// The radius that distances are counted in, scene units.
-    radius: f32,
+    /// What places are counted from.
+    focus: Focus,
     /// What stereo is, or would be if it was switched on.
     stereo: Stereo,
 }
@@ -74,7 +76,10 @@ impl Session {
             help: false,
             figures: true,
             home: view,
-            radius: 1.0,
+            focus: Focus {
+                center: Vec3::ZERO,
+                radius: 1.0,
+            },
             stereo: view.stereo.unwrap_or(Stereo::new(StereoMode::Anaglyph)),
         }
     }
@@ -152,7 +157,7 @@ impl Session {
 
     /// Between the eyes, scene units, if there are two.
     pub fn eye_distance(&self) -> f32 {
-        self.stereo.eyes_apart(self.view.camera.distance * self.radius)
+        self.stereo.eyes_apart(self.view.camera.distance * self.focus.radius)
     }
 
     /// From one way of sharing the screen to the next; from the last one back to one eye.

@@ -46,6 +46,8 @@ pub enum Step {
     WaitSettled,
     /// Wait until so many new pictures were shown.
     WaitFrames(u64),
+    /// Wait until the picture that is shown has so many samples a pixel.
+    WaitSamples(u64),
     /// Wait until what is shown was read again because it was saved, even if that went wrong.
     WaitReloaded,
     /// Wait so many milliseconds.

@@ -144,3 +144,132 @@ fn a_file_that_is_saved_is_read_again() {
     assert_eq!(view.samples.count(), 4, "{report}");
     assert!((view.camera.azimuth - 11.0).abs() < 1e-3, "{report}");
 }
+
+/// A scene file with a mesh, a plane and a light; `more` stands at its end.
+fn scene(more: &str) -> String {
+    format!(
+        "[camera]
+        position = [0.5, 1.2, 4]
+        look_at = [0.5, 0.5, 0]
+        [render]
+        width = 400
+        height = 300
+        samples = 4
+        depth = 3
+        [materials.shiny]
+        base = \"#4080c0\"
+        mirror = 0.3
+        [[mesh]]
+        file = \"mesh.ply\"
+        material = \"shiny\"
+        [[light]]
+        position = [3, 5, 4]
+        {more}"
+    )
+}
+
+#[test]
+#[ignore = "needs a display"]
+fn a_scene_comes_with_its_view_and_its_size() {
+    let session = Session::new();
+    session.write("mesh.ply", &mesh(2));
+    session.write("scene.toml", &scene(""));
+    let report = run(
+        &session,
+        &["scene.toml", "--backend", "cpu", "--depth", "4"],
+        "wait settled
+        key I
+        wait settled
+        screenshot first.png
+        print
+        open bunny.toml
+        wait settled
+        expect message bunny.toml
+        expect triangles 2
+        open mesh.ply
+        wait settled
+        open scene.toml
+        wait settled
+        screenshot dropped.png",
+    );
+    assert_eq!(report.value("size"), "400 300", "{report}");
+    assert_eq!(report.value("samples"), "4 of 4", "{report}");
+    assert_eq!(report.value("depth"), "4", "the command line counts: {report}");
+    let arguments = [
+        "render",
+        "scene.toml",
+        "--backend",
+        "cpu",
+        "--depth",
+        "4",
+        "-o",
+        "wanted.png",
+    ];
+    session.start_with(&arguments).finish();
+    let wanted = session.await_picture("wanted.png");
+    assert_same("the scene", &session.await_picture("first.png"), &wanted);
+    assert_same("the dropped scene", &session.await_picture("dropped.png"), &wanted);
+    let report = run(
+        &session,
+        &["scene.toml", "--backend", "cpu", "--size", "320x200"],
+        "wait settled\nprint",
+    );
+    assert_eq!(report.value("size"), "320 200", "{report}");
+}
+
+#[test]
+#[ignore = "needs a display"]
+fn a_scene_that_is_saved_is_read_again() {
+    let session = Session::new();
+    session.write("mesh.ply", &mesh(1));
+    session.write("scene.toml", &scene(""));
+    let mut window = session.start(
+        &["scene.toml", "--backend", "cpu"],
+        "wait settled
+        key I
+        drag left 50 10
+        wait settled
+        screenshot turned.png
+        wait reloaded
+        wait settled
+        expect triangles 2
+        screenshot meshed.png
+        wait reloaded
+        wait settled
+        screenshot planed.png
+        print
+        wait reloaded
+        expect message scene.toml
+        screenshot refused.png
+        wait reloaded
+        wait settled
+        screenshot aimed.png",
+    );
+    let turned = session.await_picture("turned.png");
+    session.replace("mesh.ply", &mesh(2));
+    let meshed = session.await_picture("meshed.png");
+    assert!(agreement(&turned, &meshed) < 0.99, "the scene's mesh was saved");
+    let plane = "[[plane]]\npoint = [0, -0.1, 0]\n";
+    session.replace("scene.toml", &scene(plane));
+    let planed = session.await_picture("planed.png");
+    assert!(agreement(&planed, &meshed) < 0.8, "the scene was saved");
+    session.write("scene.toml", &scene("[[plain]]"));
+    session.await_picture("refused.png");
+    let elsewhere = scene(plane).replace("position = [0.5, 1.2, 4]", "position = [-2, 1.5, 3]");
+    session.write("scene.toml", &elsewhere);
+    let aimed = session.await_picture("aimed.png");
+    let report = window.finish();
+    let azimuth = report.view().camera.azimuth;
+    assert!(
+        (azimuth + 15.0).abs() < 1e-3,
+        "it stayed where the person turned it: {azimuth}"
+    );
+    assert!(report.standard_error.contains("did you mean \"plane\""), "{report}");
+    let arguments = ["render", "scene.toml", "--backend", "cpu", "-o", "wanted.png"];
+    session.start_with(&arguments).finish();
+    assert_same(
+        "the scene's own camera has moved",
+        &aimed,
+        &session.await_picture("wanted.png"),
+    );
+}

@@ -165,8 +165,7 @@ fn a_picture_is_refined_in_sight(backend: &str) {
         key M
         wait settled
         key M
-        wait frames 2
-        wait milliseconds 600
+        wait samples 20
         screenshot some.png
         print
         wait settled

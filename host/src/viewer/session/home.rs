@@ -1,8 +1,11 @@
 //! The view that comes with a scene, and what the person has made of it.
 
 use super::Session;
+use crate::model::Focus;
 use crate::stereo::Stereo;
-use crate::view::View;
+use crate::view::{Place, View};
+use glam::Vec3;
+use oktant_shared::orbit::{Orbit, Up};
 
 impl Session {
     /// Goes back to where camera and light were; how the picture looks stays.
@@ -17,7 +20,7 @@ impl Session {
 
     /// Another scene has come, with its view. The shading, the samples and the kind of stereo that the person has chosen
     /// stay.
-    pub fn open(&mut self, home: View, radius: f32) {
+    pub fn open(&mut self, home: View, focus: Focus) {
         let mode = |view: &View| view.stereo.map(|stereo| stereo.mode);
         let stereo = kept(mode(&self.view), mode(&self.home), mode(&home)).map(|mode| Stereo {
             mode,
@@ -31,13 +34,13 @@ impl Session {
             ..home
         };
         self.stereo = stereo.or(home.stereo).unwrap_or(Stereo::new(self.stereo.mode));
-        (self.home, self.radius) = (home, radius);
+        (self.home, self.focus) = (home, focus);
     }
 
     /// The scene has come for the first time, or once more after it was saved, with its view: what is new in that
     /// counts, all else stays as the person has left it. Where the scene looks at something else (`is_elsewhere`), the
     /// camera is new in any case.
-    pub fn update(&mut self, home: View, radius: f32, is_elsewhere: bool) {
+    pub fn update(&mut self, home: View, focus: Focus, is_elsewhere: bool) {
         let (mine, old) = (self.view, self.home);
         let camera = |view: &View| (view.camera, view.target, view.field_of_view, view.up);
         let (camera, target, field_of_view, up) = if is_elsewhere {
@@ -50,7 +53,7 @@ impl Session {
             target,
             field_of_view,
             up,
-            light: updated(mine.light, old.light, home.light),
+            light: self.updated_light(&home, focus),
             shading: updated(mine.shading, old.shading, home.shading),
             samples: updated(mine.samples, old.samples, home.samples),
             pattern: updated(mine.pattern, old.pattern, home.pattern),
@@ -61,8 +64,44 @@ impl Session {
             tone: updated(mine.tone, old.tone, home.tone),
         };
         self.stereo = self.view.stereo.unwrap_or(self.stereo);
-        (self.home, self.radius) = (home, radius);
+        (self.home, self.focus) = (home, focus);
     }
+}
+
+impl Session {
+    /// The light after [`Session::update`]. One that has its place in the scene keeps it, whatever places are counted
+    /// from now.
+    fn updated_light(&self, home: &View, focus: Focus) -> Place {
+        let (mine, old) = (self.view.light, self.home.light);
+        let was_at = position(&old, self.focus, self.home.up);
+        let is_at = position(&home.light, focus, home.up);
+        if old == home.light {
+            mine
+        } else if mine == old || was_at.distance(is_at) > SAME_PLACE * focus.radius {
+            home.light
+        } else {
+            Place::at(
+                position(&mine, self.focus, self.view.up) - focus.center,
+                focus.radius,
+                home.up,
+            )
+        }
+    }
+}
+
+/// Places nearer to each other than this part of the radius are the same.
+const SAME_PLACE: f32 = 1e-3;
+
+/// Where a place is in the scene.
+fn position(place: &Place, focus: Focus, up: Up) -> Vec3 {
+    let orbit = Orbit {
+        center: focus.center,
+        radius: place.distance * focus.radius,
+        azimuth: place.azimuth,
+        elevation: place.elevation,
+        up,
+    };
+    orbit.position()
 }
 
 /// What was chosen, if it was, else what is new.
@@ -83,6 +122,15 @@ mod tests {
     use crate::stereo::StereoMode;
     use crate::tone::{Curve, Tone};
     use crate::view::{Place, Shading};
+
+    const FOCUS: Focus = Focus {
+        center: Vec3::ZERO,
+        radius: 1.0,
+    };
+    const LARGER: Focus = Focus {
+        center: Vec3::Y,
+        radius: 2.0,
+    };
 
     fn session() -> Session {
         Session::new(View::default(), [800, 600], 1.0)
@@ -109,12 +157,12 @@ mod tests {
     #[test]
     fn a_scene_comes_with_its_view() {
         let mut session = session();
-        session.update(of_a_scene(), 1.0, false);
+        session.update(of_a_scene(), FOCUS, false);
         assert_eq!(session.view, of_a_scene());
         session.apply(Input::Turn { right: 9.0, down: 9.0 });
         session.apply(Input::Reset);
         assert_eq!(session.view, of_a_scene());
-        session.open(View::default(), 1.0);
+        session.open(View::default(), FOCUS);
         assert_eq!(session.view, View::default(), "nothing was chosen");
     }
 
@@ -130,7 +178,7 @@ mod tests {
             samples: Samples::Sixteen,
             ..of_a_scene()
         };
-        session.open(home, 1.0);
+        session.open(home, FOCUS);
         let wanted = View {
             samples: Samples::Four,
             shading: Shading::Flat,
@@ -143,25 +191,25 @@ mod tests {
     #[test]
     fn what_is_new_in_a_saved_scene_counts_and_the_rest_stays() {
         let mut session = session();
-        session.update(of_a_scene(), 1.0, false);
+        session.update(of_a_scene(), FOCUS, false);
         session.apply(Input::Turn { right: 9.0, down: 9.0 });
         session.apply(Input::NextSamples);
         session.apply(Input::Deepen(1));
         let mine = session.view;
-        session.update(of_a_scene(), 2.0, false);
+        session.update(of_a_scene(), LARGER, false);
         assert_eq!(session.view, mine, "nothing is new");
         let saved = View {
             depth: 3,
             ..of_a_scene()
         };
-        session.update(saved, 2.0, false);
+        session.update(saved, LARGER, false);
         assert_eq!(session.view, View { depth: 3, ..mine });
         let camera = Place {
             azimuth: 90.0,
             ..saved.camera
         };
         let saved = View { camera, ..saved };
-        session.update(saved, 2.0, false);
+        session.update(saved, LARGER, false);
         let wanted = View {
             camera,
             depth: 3,
@@ -169,7 +217,34 @@ mod tests {
         };
         assert_eq!(session.view, wanted, "the scene's own camera has moved");
         session.apply(Input::Turn { right: 9.0, down: 9.0 });
-        session.update(saved, 2.0, true);
+        session.update(saved, LARGER, true);
         assert_eq!(session.view, wanted, "it looks at something else");
+    }
+
+    #[test]
+    fn lights_keep_their_places_in_the_scene() {
+        let of = |position: Vec3, focus: Focus| View {
+            light: Place::at(position - focus.center, focus.radius, Up::Y),
+            ..View::default()
+        };
+        let at = |session: &Session| position(&session.view.light, session.focus, session.view.up);
+        let lamp = Vec3::new(3.0, 4.0, 5.0);
+        let mut session = session();
+        session.update(of(lamp, FOCUS), FOCUS, false);
+        session.update(of(lamp, LARGER), LARGER, false);
+        assert!(at(&session).distance(lamp) < 1e-5);
+        session.apply(Input::TurnLight { right: 50.0, down: 9.0 });
+        let moved = at(&session);
+        assert!(moved.distance(lamp) > 1.0);
+        session.update(of(lamp, FOCUS), FOCUS, false);
+        assert!(
+            at(&session).distance(moved) < 1e-5,
+            "only the ball around all has shrunk"
+        );
+        session.update(of(lamp + Vec3::X, FOCUS), FOCUS, false);
+        assert!(
+            at(&session).distance(lamp + Vec3::X) < 1e-5,
+            "the scene's own light has moved"
+        );
     }
 }

@@ -203,7 +203,11 @@ fn stereo_goes_round_and_keeps_the_eyes() {
             None
         ]
     );
-    session.open(session.view, 3.0);
+    let focus = Focus {
+        center: Vec3::ZERO,
+        radius: 3.0,
+    };
+    session.open(session.view, focus);
     session.apply(Input::NextStereo);
     let near = |a: f32, b: f32| (a - b).abs() < 1e-5;
     // A thirtieth of the distance to what the camera looks at.
