@@ -127,9 +127,11 @@ impl Stage {
         whole.normals.resize(whole.positions.len(), Vec3::ZERO);
         whole.coordinates.extend(&mesh.coordinates);
         whole.coordinates.resize(whole.positions.len(), Vec2::ZERO);
-        whole
-            .triangles
-            .extend(mesh.triangles.iter().map(|corners| corners.map(|corner| corner + vertex)));
+        whole.triangles.extend(
+            mesh.triangles
+                .iter()
+                .map(|corners| corners.map(|corner| corner + vertex)),
+        );
         let end = whole.triangles.len() as u32;
         self.model.material_ids.resize(end as usize, material);
         triangle..end
@@ -145,7 +147,9 @@ impl Stage {
     pub fn position_texture(&mut self, period: f32) -> u32 {
         // Four texels, between whose middles the colour is linear.
         let first = self.model.texels.len() as u32;
-        self.model.texels.extend([0x00_ff_00, 0x00_ff_ff, 0x00_00_00, 0x00_00_ff]);
+        self.model
+            .texels
+            .extend([0x00_ff_00, 0x00_ff_ff, 0x00_00_00, 0x00_00_ff]);
         self.model.textures.push(Texture {
             first,
             width: 2,

@@ -28,7 +28,14 @@ pub fn block(low: Vec3, high: Vec3) -> Mesh {
 /// A solid with six flat faces: corner `i` lies on the side of larger x where bit 0 of `i` is set, of larger y where
 /// bit 1 is, of larger z where bit 2 is.
 pub fn hexahedron(corners: [Vec3; 8]) -> Mesh {
-    let faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let faces = [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ];
     let triangles = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
     bare(corners.to_vec(), triangles.collect())
 }

@@ -25,7 +25,10 @@ fn slab(stage: &mut Stage, thickness: f32, absorption: Vec3, ior: f32) {
         ..clear(ior)
     });
     let aside = 4.0 * thickness;
-    stage.mesh(&block(vec3(-aside, -thickness, -aside), vec3(aside, 0.0, aside)), material);
+    stage.mesh(
+        &block(vec3(-aside, -thickness, -aside), vec3(aside, 0.0, aside)),
+        material,
+    );
 }
 
 fn left(absorption: Vec3, way: f64) -> DVec3 {

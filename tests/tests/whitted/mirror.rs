@@ -67,7 +67,10 @@ fn scene(with: Mirror) -> (Arc<Scene>, u32) {
         }
         Mirror::Plane => stage.plane(PLACE, NORMAL, silver),
     }
-    stage.model.lights.push(point_light(vec3(2.0, 6.0, 5.0), Vec3::splat(0.8)));
+    stage
+        .model
+        .lights
+        .push(point_light(vec3(2.0, 6.0, 5.0), Vec3::splat(0.8)));
     stage.model.ambient = Vec3::splat(0.2);
     stage.model.environment = Environment {
         zenith: vec3(0.2, 0.4, 0.9),
@@ -129,7 +132,9 @@ fn shows_what_the_mirrored_camera_sees(with: Mirror) {
             alike += u32::from(off.abs().max_element() <= 1e-4);
         }
     }
-    println!("{with:?}: of {pixels} pixels {same} show the same triangle, {alike} of them in the same colour; {on_balls} on balls");
+    println!(
+        "{with:?}: of {pixels} pixels {same} show the same triangle, {alike} of them in the same colour; {on_balls} on balls"
+    );
     assert!(pixels > 50_000 && on_balls > 5_000, "the mirror is in the picture");
     assert!(f64::from(same) >= 0.999 * f64::from(pixels));
     assert!(f64::from(alike) >= 0.999 * f64::from(same));

@@ -137,7 +137,10 @@ fn total_reflection_starts_at_the_critical_angle() {
         let exact = (f64::from(to) / f64::from(from)).asin();
         let tolerance = 3.0 * f64::from(f32::EPSILON) / (2.0 * exact).sin().abs();
         let off = f64::from(above) - exact;
-        println!("from {from} to {to}: total from {} degrees, off by {off:.1e}", above.to_degrees());
+        println!(
+            "from {from} to {to}: total from {} degrees, off by {off:.1e}",
+            above.to_degrees()
+        );
         assert!(off.abs() <= tolerance, "{off} is more than {tolerance}");
     }
 }
@@ -165,7 +168,10 @@ fn traced_rays_follow_snell_out_of_glass() {
             let direction = incoming(Vec3::NEG_Y, f64::from(step) / 10.0, 0.7);
             let exact = snell(direction.as_dvec3(), DVec3::NEG_Y, 1.5, 1.0).unwrap();
             let seen = leaves_towards(&scene, &frame, &Ray::new(Vec3::NEG_Y * 2.0, direction));
-            assert!(seen.distance(exact) <= 3e-6, "{step} tenths of a degree: {seen} and {exact}");
+            assert!(
+                seen.distance(exact) <= 3e-6,
+                "{step} tenths of a degree: {seen} and {exact}"
+            );
         }
     }
 }
@@ -198,11 +204,17 @@ fn nothing_goes_through_beyond_the_critical_angle() {
             let reflected = f64::from(color.y) / angle.to_radians().cos();
             if angle > critical + 1e-3 {
                 assert_eq!(color.x, 0.0, "{ior}, {angle} degrees");
-                assert!((reflected - 1.0).abs() < 2e-6 / angle.to_radians().cos(), "{ior}, {angle} degrees: {color}");
+                assert!(
+                    (reflected - 1.0).abs() < 2e-6 / angle.to_radians().cos(),
+                    "{ior}, {angle} degrees: {color}"
+                );
             } else if angle < critical - 0.1 {
                 let beyond = snell(direction.as_dvec3(), DVec3::NEG_Y, ior, 1.0).unwrap();
                 let transmitted = f64::from(color.x) / beyond.y;
-                assert!((reflected + transmitted - 1.0).abs() < 1e-5, "{ior}, {angle} degrees: {color}");
+                assert!(
+                    (reflected + transmitted - 1.0).abs() < 1e-5,
+                    "{ior}, {angle} degrees: {color}"
+                );
                 assert!(color.x > 0.0 && color.y > 0.0);
             }
         }
