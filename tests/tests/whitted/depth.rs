@@ -159,6 +159,9 @@ fn deeper_than_deepest_is_deepest() {
 }
 
 /// Oracle: the CPU, whose tracer the tests above hold against analysis; tolerance as for all pictures of two back ends.
+///
+/// Rays that count for less than a 50th are cut: lavapipe leaves every loop of a pixel when their iterations together
+/// have become 65,535.
 #[test]
 #[ignore = "needs a Vulkan driver"]
 fn both_back_ends_agree_at_every_depth() {
@@ -173,29 +176,32 @@ fn both_back_ends_agree_at_every_depth() {
         directional_light(vec3(1.0, 2.0, 0.5), Vec3::splat(0.3)),
     ];
     let scene = stage.build();
-    let mut backend = GpuBackend::new(gpu, &scene).unwrap();
+    let mut backend = GpuBackend::new(gpu.clone(), &scene).unwrap();
     let camera = camera(vec3(0.3, 0.6, 2.7), vec3(0.0, -0.2, 0.0), 70.0, 320, 240);
     for depth in 0..=MAX_DEPTH {
         let frame = Frame {
             depth,
+            cutoff: 0.02,
             ..frame(&scene, camera)
         };
-        let (here, there) = (picture(&scene, &frame), backend.render(&frame, &silent).unwrap());
-        let colors = ColorDifferences::new(&here, &there);
-        let rays = |work: &[Vec4]| work.iter().map(|work| f64::from(work.x)).sum::<f64>();
-        let (cpu_rays, gpu_rays) = (rays(&here.work), rays(&there.work));
-        println!("depth {depth}: {colors}; {cpu_rays} and {gpu_rays} rays");
-        assert!(colors.agree(), "depth {depth}");
-        assert!((cpu_rays / gpu_rays - 1.0).abs() < 1e-3);
+        agree(&format!("hall of mirrors, depth {depth}"), &scene, &mut backend, &frame);
     }
+    // Every ray becomes two.
     let (scene, deepest) = panes(30);
-    let mut backend = GpuBackend::new(backend.gpu().clone(), &scene).unwrap();
-    let there = backend.render(&deepest, &silent).unwrap();
-    assert!(
-        there
-            .work
-            .iter()
-            .all(|work| work.x <= (MAX_RAYS + MAX_DEPTH) as f32 && work.x > 100.0)
-    );
-    assert!(ColorDifferences::new(&picture(&scene, &deepest), &there).agree());
+    let mut backend = GpuBackend::new(gpu, &scene).unwrap();
+    for depth in [1, 4, 8] {
+        let frame = Frame { depth, ..deepest };
+        agree(&format!("panes, depth {depth}"), &scene, &mut backend, &frame);
+    }
+}
+
+fn agree(name: &str, scene: &Arc<Scene>, backend: &mut GpuBackend, frame: &Frame) {
+    let (here, there) = (picture(scene, frame), backend.render(frame, &silent).unwrap());
+    let colors = ColorDifferences::new(&here, &there);
+    let rays = |work: &[Vec4]| work.iter().map(|work| f64::from(work.x)).sum::<f64>();
+    let (cpu_rays, gpu_rays) = (rays(&here.work), rays(&there.work));
+    let most = here.work.iter().map(|work| work.x).fold(0.0, f32::max);
+    println!("{name}: {colors}; {cpu_rays} and {gpu_rays} rays, up to {most} a pixel");
+    assert!(colors.agree(), "{name}");
+    assert!((cpu_rays / gpu_rays - 1.0).abs() < 1e-3, "{name}");
 }
