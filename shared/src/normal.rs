@@ -14,17 +14,15 @@ pub fn face_normal(triangle: &Triangle) -> Vec3 {
     let edge_ac = triangle.c - triangle.a;
     // Scaled first: the product of the edges of a small triangle of a small mesh would underflow.
     let size = max_component(edge_ab.abs()) + max_component(edge_ac.abs());
-    if size <= f32::MIN_POSITIVE {
-        return Vec3::ZERO;
+    if size > f32::MIN_POSITIVE {
+        let normal = (edge_ab / size).cross(edge_ac / size);
+        // And again: that of a needle is short.
+        let length = max_component(normal.abs());
+        if length > f32::MIN_POSITIVE {
+            return unit_or_zero(normal / length);
+        }
     }
-    let normal = (edge_ab / size).cross(edge_ac / size);
-    // And again: that of a needle is short.
-    let length = max_component(normal.abs());
-    if length > f32::MIN_POSITIVE {
-        unit_or_zero(normal / length)
-    } else {
-        Vec3::ZERO
-    }
+    Vec3::ZERO
 }
 
 /// The normal interpolated between a triangle's corners ("Phong shading": B. T. Phong, "Illumination for computer

@@ -6,6 +6,7 @@ use oktant_shared::frame::Frame;
 use oktant_shared::light::{AREA, Light};
 use oktant_shared::material::Material;
 use oktant_shared::ray::Ray;
+use oktant_shared::traversal::{Standard, Traversal};
 use oktant_tests::meshes::block;
 use oktant_tests::stage::{Stage, camera, directional_light, frame, matte, point_light, see};
 use std::sync::Arc;
@@ -38,9 +39,11 @@ fn area(samples_per_side: u32) -> Light {
     }
 }
 
-/// Points all over the floor, some in the block's shadow, some half in it.
-fn targets() -> impl Iterator<Item = Vec3> {
-    (0..2_500).map(|i| vec3((i % 50) as f32 * 0.12 - 2.97, 0.0, (i / 50) as f32 * 0.12 - 2.97))
+/// Points all over the floor that the camera sees, some in the block's shadow, some half in it.
+fn targets(scene: &Scene, eye: Vec3) -> Vec<Vec3> {
+    let all = (0..2_500).map(|i| vec3((i % 50) as f32 * 0.12 - 2.97, 0.0, (i / 50) as f32 * 0.12 - 2.97));
+    all.filter(|target| !Standard::any_hit(&scene.view(), &Ray::new(eye, *target - eye)))
+        .collect()
 }
 
 /// Oracle: the sum of one picture for each point light in the middle of the area light's squares, dimmed by Lambert's
@@ -52,7 +55,7 @@ fn an_area_light_is_the_sum_of_its_points() {
         let (scene, frame) = scene(vec![area(side)]);
         let light = area(side);
         let (mut full, mut half, mut none) = (0, 0, 0);
-        for target in targets() {
+        for target in targets(&scene, frame.camera.eye) {
             let ray = Ray::new(frame.camera.eye, target - frame.camera.eye);
             let mut reached = 0;
             let mut sum = Vec3::ZERO;
@@ -77,10 +80,14 @@ fn an_area_light_is_the_sum_of_its_points() {
                 none += 1;
             }
             let seen = see(&scene, &frame, &ray);
-            assert!((seen.color - sum).abs().max_element() <= 1e-5, "at {target}: {} and {sum}", seen.color);
+            assert!(
+                (seen.color - sum).abs().max_element() <= 1e-5,
+                "at {target}: {} and {sum}",
+                seen.color
+            );
         }
         println!("{side} x {side}: {full} points lit, {half} half, {none} not");
-        assert!(full > 500 && none > 50 && (half > 100 || side == 1));
+        assert!(full > 500 && none > 20 && (half > 100 || side == 1));
     }
 }
 
@@ -100,7 +107,7 @@ fn lights_add_up() {
     ];
     let (scene, frame) = scene(lights.clone());
     let mut shadow_rays = 0;
-    for target in targets() {
+    for target in targets(&scene, frame.camera.eye) {
         let ray = Ray::new(frame.camera.eye, target - frame.camera.eye);
         let sum: Vec3 = lights
             .iter()
@@ -114,8 +121,12 @@ fn lights_add_up() {
             })
             .sum();
         let all = see(&scene, &frame, &ray);
-        assert!((all.color - sum).abs().max_element() <= 1e-5, "at {target}: {} and {sum}", all.color);
+        assert!(
+            (all.color - sum).abs().max_element() <= 1e-5,
+            "at {target}: {} and {sum}",
+            all.color
+        );
         shadow_rays += all.shadow_rays;
     }
-    assert!(shadow_rays > 2_500 * 9, "all of the lights ask");
+    assert!(shadow_rays > 1_500 * 9, "all of the lights ask");
 }

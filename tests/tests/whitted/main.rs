@@ -4,8 +4,17 @@
 #![cfg(test)]
 
 mod absorption;
+mod depth;
+mod falloff;
 mod furnace;
 mod layers;
+mod lights;
 mod mirror;
+mod normals;
+mod origins;
+mod random;
 mod refraction;
+mod shadows;
 mod slab;
+mod stereo;
+mod water;

@@ -81,22 +81,22 @@ fn bodies_absorb_and_do_not_bend() {
     let absorption = vec3(0.3, 0.1, 1.0);
     for light in lights() {
         let mut stage = Stage::default();
-        let glass = stage.material(Material {
-            absorption,
-            ..tinted()
-        });
+        let glass = stage.material(Material { absorption, ..tinted() });
         stage.mesh(&block(vec3(-1.0, 1.0, -1.3), vec3(1.2, 1.7, 1.1)), glass);
         let mut sphere = icosphere(3);
         for position in &mut sphere.positions {
-            position.y += 3.5;
+            *position += vec3(0.03, 3.5, 0.02);
         }
-        // Along the axis a vertex lies at neither end, so the chord is that of the mesh.
+        // Where the y axis meets the planes of the upper and of the lower half first, it meets the ball.
         let height = |sign: f32| {
             let on_axis = |[a, b, c]: [Vec3; 3]| {
                 let normal = (b - a).cross(c - a);
                 (normal.y * sign > 0.0).then(|| normal.dot(a) / normal.y)
             };
-            let corners = sphere.triangles.iter().map(|t| t.map(|corner| sphere.positions[corner as usize]));
+            let corners = sphere
+                .triangles
+                .iter()
+                .map(|t| t.map(|corner| sphere.positions[corner as usize]));
             let heights = corners.filter_map(on_axis).map(|height| (height - 3.5) * sign);
             heights.fold(f32::INFINITY, f32::min)
         };

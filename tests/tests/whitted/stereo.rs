@@ -6,9 +6,9 @@ use oktant_shared::frame::Frame;
 use oktant_shared::ray::Ray;
 use oktant_shared::sampling::REGULAR;
 use oktant_shared::stereo::{ANAGLYPH, MONO, ROWS, SIDE_BY_SIDE, STACKED};
+use oktant_shared::texture::NO_TEXTURE;
 use oktant_tests::meshes::icosphere;
 use oktant_tests::stage::{Stage, camera, frame, glowing, mean, picture};
-use oktant_shared::texture::NO_TEXTURE;
 
 const WIDTH: u32 = 160;
 const HEIGHT: u32 = 120;
@@ -113,7 +113,9 @@ fn a_small_ball_is_where_each_eye_sees_it() {
             let picture = picture(&scene, &frame);
             let pixels = || {
                 let colors = picture.sums.iter().map(|sum| mean(*sum));
-                (0..).zip(colors).map(|(i, color)| (i % picture.width, i / picture.width, color))
+                (0..)
+                    .zip(colors)
+                    .map(|(i, color)| (i % picture.width, i / picture.width, color))
             };
             for eye in [-1.0_f64, 1.0] {
                 let is_right = eye > 0.0;
@@ -130,7 +132,9 @@ fn a_small_ball_is_where_each_eye_sees_it() {
                         let half = pixels().filter(|(_, y, _)| (y % 2 == 1) == is_right);
                         centroid(half.map(|(x, y, color)| (x, y, color.x)))
                     }
-                    ANAGLYPH => centroid(pixels().map(|(x, y, color)| (x, y, if is_right { color.z } else { color.x }))),
+                    ANAGLYPH => {
+                        centroid(pixels().map(|(x, y, color)| (x, y, if is_right { color.z } else { color.x })))
+                    }
                     _ => centroid(pixels().map(|(x, y, color)| (x, y, color.x))),
                 };
                 let expected = projected(&camera, point, if stereo == MONO { 0.0 } else { eye });
