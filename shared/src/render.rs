@@ -64,10 +64,8 @@ pub fn render_pixel<V: Traversal, const FULL: bool>(frame: &Frame, world: &World
 /// The colour of the first surface that a ray meets.
 fn first_surface<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Traced {
     let mut traced = Traced {
-        color: Vec3::ZERO,
         rays: 1,
-        shadow_rays: 0,
-        cut: 0.0,
+        ..Traced::NOTHING
     };
     let hit = closest_hit::<V, false>(frame, world, ray);
     traced.color = if hit.is_hit() {

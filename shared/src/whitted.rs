@@ -31,9 +31,19 @@ pub struct Traced {
     pub rays: u32,
     /// Rays that asked whether a light is seen.
     pub shadow_rays: u32,
-    /// The weight of the rays that were not followed, largest channel, summed up: what is missing in the colour is at
-    /// most this part of the brightest thing there is.
+    /// The weight of the rays, shadow rays too, that were not followed, largest channel, summed up: what is missing in the
+    /// colour is at most this part of the brightest thing there is.
     pub cut: f32,
+}
+
+impl Traced {
+    /// Before anything is traced.
+    pub const NOTHING: Traced = Traced {
+        color: Vec3::ZERO,
+        rays: 0,
+        shadow_rays: 0,
+        cut: 0.0,
+    };
 }
 
 /// A ray that is to be followed.
@@ -66,12 +76,7 @@ struct Pending {
 /// - A ray whose weight is below the frame's cut-off, beyond its depth, or beyond [`MAX_RAYS`] is cut: it adds nothing,
 ///   and [`Traced::cut`] counts its weight.
 pub fn trace<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Traced {
-    let mut traced = Traced {
-        color: Vec3::ZERO,
-        rays: 0,
-        shadow_rays: 0,
-        cut: 0.0,
-    };
+    let mut traced = Traced::NOTHING;
     let mut next = Pending {
         origin: ray.origin,
         depth: 0,

@@ -12,6 +12,7 @@ use oktant_shared::surface::Surface;
 use oktant_shared::texture::{Texture, WAVES};
 use oktant_shared::trace::closest_hit;
 use oktant_shared::traversal::Standard;
+use oktant_shared::whitted::Traced;
 use oktant_tests::meshes::{ball, turned_inside_out};
 use oktant_tests::stage::{Stage, camera, directional_light, frame, matte, see};
 use std::sync::Arc;
@@ -146,7 +147,7 @@ fn shown(mesh: &Mesh, seed: u64) -> Vec<Shown> {
                 cosine: surface.normal.dot(towards),
                 round: surface.point.normalize().dot(towards).max(0.0),
                 lifted: see(&scene, &frame, &ray).color.x,
-                flat: shade::<Standard, true>(&frame, &world, &flat, view, &mut 0).x,
+                flat: shade::<Standard, true>(&frame, &world, &flat, view, Vec3::ONE, &mut { Traced::NOTHING }).x,
             });
         }
     }
