@@ -95,6 +95,8 @@ fn an_area_light_is_the_sum_of_its_points() {
 #[test]
 fn lights_add_up() {
     let lights = vec![
+        // Below the floor.
+        point_light(vec3(0.0, -2.0, 1.0), Vec3::ONE),
         point_light(vec3(2.0, 2.0, 1.0), vec3(0.5, 0.1, 0.1)),
         directional_light(vec3(-1.0, 2.0, 0.5), vec3(0.1, 0.4, 0.2)),
         area(3),
@@ -102,8 +104,6 @@ fn lights_add_up() {
             falloff_radius: 0.3,
             ..point_light(vec3(-2.0, 1.0, 2.0), vec3(0.1, 0.2, 0.9))
         },
-        // Below the floor.
-        point_light(vec3(0.0, -2.0, 1.0), Vec3::ONE),
     ];
     let (scene, frame) = scene(lights.clone());
     let mut shadow_rays = 0;

@@ -2,7 +2,10 @@
 
 use glam::{Vec3, vec3};
 use oktant::mesh::Mesh;
+use oktant::octree::OctreeOptions;
+use oktant::progress::silent;
 use oktant::scene::Scene;
+use oktant_shared::environment::Environment;
 use oktant_shared::frame::Frame;
 use oktant_shared::material::{Material, SMOOTH_NORMALS};
 use oktant_shared::optics::reflected;
@@ -14,7 +17,7 @@ use oktant_shared::trace::closest_hit;
 use oktant_shared::traversal::Standard;
 use oktant_shared::whitted::Traced;
 use oktant_tests::meshes::{ball, turned_inside_out};
-use oktant_tests::stage::{Stage, camera, directional_light, frame, matte, see};
+use oktant_tests::stage::{Stage, camera, directional_light, frame, matte, mirror, see};
 use std::sync::Arc;
 
 fn unit(random: &mut fastrand::Rng) -> Vec3 {
@@ -216,4 +219,51 @@ fn normals_against_the_corners_shade_alike() {
         see(&scene, &frame, &Ray::new(Vec3::Z * 3.0, Vec3::NEG_Z)).color.x
     };
     assert!(color(&against) > 0.8);
+}
+
+/// Oracle: colours are numbers, finite and not negative, and a mirror under a white sky is white. Triangles so thin that
+/// in f32 they have no area, or one that is lost where the length of their normal is squared; each alone, hit by rays
+/// that are aimed at points of it.
+#[test]
+fn needles_have_a_normal() {
+    let mut random = fastrand::Rng::with_seed(9);
+    let mut hits = 0;
+    for i in 0..3_000 {
+        let (a, along) = (unit(&mut random) * 0.5, unit(&mut random));
+        let corners = if i % 2 == 0 {
+            // Off the line by what rounding leaves.
+            [a, a + along, a + along * random.f32()]
+        } else {
+            [Vec3::ZERO, Vec3::X, vec3(0.5, 10.0_f32.powi(-random.i32(8..18)), 0.0)]
+        };
+        let mesh = Mesh {
+            positions: corners.to_vec(),
+            triangles: vec![[0, 1, 2]],
+            ..Mesh::default()
+        };
+        let mut stage = Stage::default();
+        stage.material(mirror());
+        stage.mesh(&mesh, 0);
+        stage.model.environment = Environment::constant(Vec3::ONE);
+        let model = stage.model;
+        let Ok(scene) = Scene::of_model(model, &OctreeOptions::default(), &silent) else {
+            // No area in f64 either.
+            continue;
+        };
+        let frame = frame(&scene, camera(Vec3::Z * 3.0, Vec3::ZERO, 40.0, 8, 8));
+        for _ in 0..4 {
+            let (u, v) = (random.f32() / 2.0, random.f32() / 2.0);
+            let target = corners[0] + (corners[1] - corners[0]) * u + (corners[2] - corners[0]) * v;
+            let eye = if i % 2 == 0 {
+                target + unit(&mut random)
+            } else {
+                target + Vec3::Z
+            };
+            let traced = see(&scene, &frame, &Ray::new(eye, target - eye));
+            assert_eq!(traced.color, Vec3::ONE, "{corners:?}");
+            hits += u32::from(traced.rays > 1);
+        }
+    }
+    println!("{hits} hits of needles");
+    assert!(hits > 3_000);
 }
