@@ -1,5 +1,6 @@
 //! What rays see that leave the scene.
 
+use crate::arithmetic::{max, min};
 use crate::buffer::load;
 use crate::texture::{NO_TEXTURE, Texture};
 use bytemuck::{Pod, Zeroable};
@@ -49,6 +50,8 @@ impl Environment {
     /// The colour of the gradient in a direction of any length: linear in the sine of the elevation.
     pub fn gradient(&self, direction: Vec3) -> Vec3 {
         let sine = direction.dot(self.up) / direction.length();
+        // A rounding beyond 1 would lead below black.
+        let sine = max(min(sine, 1.0), -1.0);
         if sine > 0.0 {
             self.horizon + (self.zenith - self.horizon) * sine
         } else {
@@ -65,11 +68,15 @@ impl Environment {
             return self.gradient(direction);
         }
         let direction = direction.normalize();
-        let elevation = direction.dot(self.up);
-        let elevation = if elevation > 1.0 { 1.0 } else { elevation };
-        let elevation = if elevation < -1.0 { -1.0 } else { elevation };
+        let elevation = max(min(direction.dot(self.up), 1.0), -1.0);
         let front = if self.up.z > 0.5 { -direction.y } else { direction.z };
-        let turn = (-direction.x).atan2(front) / core::f32::consts::TAU;
+        // Straight up and down there is no angle, and a GPU need not give one.
+        let is_level = direction.x != 0.0 || front != 0.0;
+        let turn = if is_level {
+            (-direction.x).atan2(front) / core::f32::consts::TAU
+        } else {
+            0.0
+        };
         let at = vec2(
             0.5 + turn + self.rotation,
             0.5 + elevation.asin() / core::f32::consts::PI,

@@ -2,10 +2,11 @@
 
 use crate::frame::Frame;
 use crate::hit::Hit;
+use crate::medium::Media;
 use crate::ray::Ray;
 use crate::sampling::sample;
 use crate::scene::World;
-use crate::shading::shade;
+use crate::shading::{Viewer, shade};
 use crate::stereo::EyeView;
 use crate::surface::Surface;
 use crate::trace::closest_hit;
@@ -29,7 +30,8 @@ fn ray_of(frame: &Frame, view: &EyeView, place: Vec2) -> Ray {
 pub struct Pixel {
     /// The weighted sum of the colours, linear RGB, of this pass's samples, and in `w` the sum of their weights.
     pub sum: Vec4,
-    /// Closest-hit rays, shadow rays, and the weight that was cut (see [`Traced`]), summed over the samples; `w` is 0.
+    /// Closest-hit rays, shadow rays, and the weight that was cut (see [`Traced`]) times the sample's, summed over the
+    /// samples; `w` is 0.
     pub work: Vec4,
 }
 
@@ -55,7 +57,8 @@ pub fn render_pixel<V: Traversal, const FULL: bool>(frame: &Frame, world: &World
         };
         let (color, weight) = view.share(frame, traced.color * sample.weight, sample.weight);
         result.sum += color.extend(weight);
-        result.work += Vec4::new(traced.rays as f32, traced.shadow_rays as f32, traced.cut, 0.0);
+        let cut = traced.cut * sample.weight;
+        result.work += Vec4::new(traced.rays as f32, traced.shadow_rays as f32, cut, 0.0);
         number += 1;
     }
     result
@@ -70,8 +73,12 @@ fn first_surface<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> T
     let hit = closest_hit::<V, false>(frame, world, ray);
     traced.color = if hit.is_hit() {
         let surface = Surface::new::<false>(frame, world, ray, &hit);
-        let view = -ray.direction.normalize();
-        shade::<V, false>(frame, world, &surface, view, Vec3::ONE, &mut traced)
+        let viewer = Viewer {
+            direction: -ray.direction.normalize(),
+            weight: Vec3::ONE,
+            media: Media::AIR,
+        };
+        shade::<V, false>(frame, world, &surface, &viewer, &mut traced)
     } else {
         frame.environment.gradient(ray.direction)
     };

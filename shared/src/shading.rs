@@ -1,10 +1,11 @@
 //! The light that a surface reflects in all directions.
 
-use crate::arithmetic::{max, max_component};
+use crate::arithmetic::{max, max_component, min};
 use crate::buffer::load;
 use crate::frame::Frame;
 use crate::light::Light;
 use crate::material::PHONG_HIGHLIGHTS;
+use crate::medium::Media;
 use crate::optics::reflected;
 use crate::scene::World;
 use crate::shadow::visibility;
@@ -15,15 +16,26 @@ use glam::Vec3;
 #[cfg(target_arch = "spirv")]
 use num_traits::Float;
 
+/// Who looks at a surface.
+#[derive(Clone, Copy)]
+pub struct Viewer {
+    /// Unit vector from the surface.
+    pub direction: Vec3,
+    /// What part of the surface's light reaches the eye, linear RGB.
+    pub weight: Vec3,
+    /// What is between the viewer and the surface.
+    pub media: Media,
+}
+
 /// A part of a light's colour that no picture of 16 bits shows.
 pub const NEGLIGIBLE: f32 = 1.0 / (1 << 16) as f32;
 
-/// The colour, linear RGB, in which a viewer in the unit direction `view` sees the surface: ambient, and of each light
+/// The colour, linear RGB, in which a viewer sees the surface: ambient, and of each light
 /// that reaches it diffuse (Lambert) and specular: Phong's (1975), or with the vector half-way between light and viewer
 /// (J. F. Blinn, "Models of light reflection for computer synthesized pictures", SIGGRAPH 1977).
 ///
-/// `weight` is the part of it that reaches the eye. A light of which less than [`NEGLIGIBLE`] would arrive there sends no
-/// shadow ray. `traced` counts the shadow rays, and as cut what was left out.
+/// A light of which less than [`NEGLIGIBLE`] would arrive at the eye sends no shadow ray. `traced` counts the shadow rays,
+/// and as cut what was left out.
 ///
 /// Both sides of a triangle are lit alike: the normal is turned to the viewer. With `FULL` false there is only the
 /// frame's light.
@@ -31,8 +43,7 @@ pub fn shade<V: Traversal, const FULL: bool>(
     frame: &Frame,
     world: &World<'_>,
     surface: &Surface,
-    view: Vec3,
-    weight: Vec3,
+    viewer: &Viewer,
     traced: &mut Traced,
 ) -> Vec3 {
     let mut color = surface.base * surface.material.ambient * frame.ambient;
@@ -45,7 +56,7 @@ pub fn shade<V: Traversal, const FULL: bool>(
         } else {
             load(world.appearance.lights, i - 1)
         };
-        color += lit::<V, FULL>(frame, world, surface, view, weight, &light, traced);
+        color += lit::<V, FULL>(frame, world, surface, viewer, &light, traced);
         i += 1;
     }
     color
@@ -55,8 +66,7 @@ fn lit<V: Traversal, const FULL: bool>(
     frame: &Frame,
     world: &World<'_>,
     surface: &Surface,
-    view: Vec3,
-    weight: Vec3,
+    viewer: &Viewer,
     light: &Light,
     traced: &mut Traced,
 ) -> Vec3 {
@@ -67,7 +77,7 @@ fn lit<V: Traversal, const FULL: bool>(
     let mut color = Vec3::ZERO;
     let mut sample = 0;
     while sample < count {
-        let incident = light.incident(sample, origin);
+        let incident = light.incident(sample, origin, frame.root.size());
         sample += 1;
         let direction = incident.direction.normalize();
         let cosine = surface.normal.dot(direction);
@@ -78,22 +88,25 @@ fn lit<V: Traversal, const FULL: bool>(
         }
         let highlight = if material.exponent > 0.0 {
             let cosine = if material.flags & PHONG_HIGHLIGHTS != 0 {
-                reflected(-view, surface.normal).dot(direction)
+                reflected(-viewer.direction, surface.normal).dot(direction)
             } else {
-                surface.normal.dot((direction + view).normalize())
+                surface.normal.dot((direction + viewer.direction).normalize())
             };
-            max(cosine, 0.0).powf(material.exponent)
+            // Above 1 by a rounding, a power of it would be far above.
+            min(max(cosine, 0.0), 1.0).powf(material.exponent)
         } else {
             0.0
         };
         let reflected = surface.base * (material.diffuse * cosine) + material.specular * highlight;
-        let most = max_component(weight * reflected);
+        let most = max_component(viewer.weight * reflected);
         if most < NEGLIGIBLE {
-            traced.cut += most;
+            traced.cut += most / count as f32;
             continue;
         }
         traced.shadow_rays += 1;
-        color += reflected * incident.color * visibility::<V, FULL>(frame, world, origin, &incident);
+        let visibility = visibility::<V, FULL>(frame, world, origin, viewer.media, &incident);
+        color += reflected * incident.color * visibility.part;
+        traced.cut += most * max_component(visibility.cut) / count as f32;
     }
     color
 }

@@ -4,6 +4,7 @@ use crate::arithmetic::min;
 use crate::buffer::load;
 use crate::frame::{Frame, TRANSPARENT};
 use crate::light::Incident;
+use crate::medium::Media;
 use crate::ray::{Ray, T_MAX};
 use crate::scene::World;
 use crate::surface::Passage;
@@ -13,19 +14,37 @@ use glam::Vec3;
 #[cfg(target_arch = "spirv")]
 use num_traits::Float;
 
-/// A shadow ray passes through so many transmissive surfaces; one more stops it.
+/// A shadow ray passes through so many transmissive surfaces; what is behind one more is cut.
 pub const MAX_SHADOW_SURFACES: u32 = 16;
 
-/// What part of the light arrives at `origin`, linear RGB: all, nothing, or what transmissive things in between leave.
+/// How much of a light a point sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Visibility {
+    /// The part of its light that arrives, linear RGB: all, nothing, or what transmissive things in between leave.
+    pub part: Vec3,
+    /// What may arrive beside that, for the ray was followed no further.
+    pub cut: Vec3,
+}
+
+impl Visibility {
+    fn of(part: Vec3) -> Self {
+        Visibility { part, cut: Vec3::ZERO }
+    }
+}
+
+/// How much of a light arrives at `origin`, which lies inside of `media`.
 ///
-/// The rule for those: light goes straight on, is multiplied with [`crate::material::Material::transmission`] at each
-/// surface, and is absorbed on its way to the surface where it leaves a medium. It is neither refracted nor reflected.
+/// The rule for transmissive things: light goes straight on, is multiplied with
+/// [`crate::material::Material::transmission`] at each surface, and is absorbed on its way through each medium. It is
+/// neither refracted nor reflected. As for other rays, a surface inside a medium of higher priority is passed as if it
+/// were not there (see [`Media`]).
 pub fn visibility<V: Traversal, const FULL: bool>(
     frame: &Frame,
     world: &World<'_>,
     origin: Vec3,
+    media: Media,
     incident: &Incident,
-) -> Vec3 {
+) -> Visibility {
     let mut ray = Ray {
         origin,
         t_min: 0.0,
@@ -33,29 +52,50 @@ pub fn visibility<V: Traversal, const FULL: bool>(
         t_max: incident.reach,
     };
     if !FULL || frame.features & TRANSPARENT == 0 {
-        return if any_hit::<V, FULL>(frame, world, &ray) {
+        return Visibility::of(if any_hit::<V, FULL>(frame, world, &ray) {
             Vec3::ZERO
         } else {
             Vec3::ONE
-        };
+        });
     }
+    let materials = world.appearance.materials;
+    let mut media = media;
     let mut part = Vec3::ONE;
     let mut surfaces = 0;
     let length = ray.direction.length();
     loop {
+        // A miss is as far as the light.
         let hit = closest_hit::<V, FULL>(frame, world, &ray);
+        let around = media.current(materials);
+        if around != 0 {
+            part *= attenuation(load(materials, around - 1).absorption, hit.t * length);
+        }
         if !hit.is_hit() {
-            return part;
+            return Visibility::of(part);
         }
         let passage = Passage::new(world, &ray, &hit);
-        let material = load(world.appearance.materials, passage.material_id);
-        if !material.is_transmissive() || surfaces == MAX_SHADOW_SURFACES {
-            return Vec3::ZERO;
+        let material = load(materials, passage.material_id);
+        if !material.is_transmissive() {
+            return Visibility::of(Vec3::ZERO);
+        }
+        if surfaces == MAX_SHADOW_SURFACES {
+            return Visibility {
+                part: Vec3::ZERO,
+                cut: part,
+            };
         }
         surfaces += 1;
-        part *= material.transmission;
-        if !passage.from_front {
+        if around == 0 && !passage.from_front {
+            // Out of something that was never entered: its surface is not closed.
             part *= attenuation(material.absorption, hit.t * length);
+        }
+        media = if passage.from_front {
+            media.entered(passage.material_id)
+        } else {
+            media.left(passage.material_id)
+        };
+        if around == 0 || media.current(materials) != around {
+            part *= material.transmission;
         }
         ray.origin = passage.origin;
         // The light's distance shrinks by the way so far; infinity stays.

@@ -168,7 +168,7 @@ fn on_triangle<const FULL: bool>(frame: &Frame, world: &World<'_>, ray: &Ray, hi
             shadow_point = lifted(&triangle, &corners, hit, point, side);
         }
         if colored {
-            base *= linear_color(corners[0].color) * (1.0 - hit.u - hit.v)
+            base *= linear_color(corners[0].color) * max(1.0 - hit.u - hit.v, 0.0)
                 + linear_color(corners[1].color) * hit.u
                 + linear_color(corners[2].color) * hit.v;
         }
@@ -187,10 +187,10 @@ fn on_triangle<const FULL: bool>(frame: &Frame, world: &World<'_>, ray: &Ray, hi
             front = bumpy(world, &material, at, front, along_u, along_v);
         }
     }
-    let normal = if smooth || FULL {
-        bent(front * turn, side, view)
-    } else {
+    let normal = if front == face {
         side
+    } else {
+        bent(front * turn, side, view)
     };
     Surface {
         point,

@@ -8,7 +8,7 @@ use crate::medium::Media;
 use crate::optics::{reflected, refracted};
 use crate::ray::Ray;
 use crate::scene::World;
-use crate::shading::shade;
+use crate::shading::{Viewer, shade};
 use crate::shadow::attenuation;
 use crate::surface::Surface;
 use crate::trace::closest_hit;
@@ -73,8 +73,8 @@ struct Pending {
 ///   Where all is reflected (total internal reflection), all of the transmission is, flag or not.
 /// - Front and back follow from the face normal and the ray's direction alone. A surface inside a medium of higher
 ///   priority is passed as if it were not there (see [`Media`]).
-/// - A ray whose weight is below the frame's cut-off, beyond its depth, or beyond [`MAX_RAYS`] is cut: it adds nothing,
-///   and [`Traced::cut`] counts its weight.
+/// - A ray whose weight is below the frame's cut-off, beyond its depth, or beyond [`MAX_RAYS`] is cut: it sees the
+///   environment as if nothing were in its way, and [`Traced::cut`] counts its weight.
 pub fn trace<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Traced {
     let mut traced = Traced::NOTHING;
     let mut next = Pending {
@@ -89,34 +89,46 @@ pub fn trace<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Trace
     loop {
         traced.rays += 1;
         let children = follow::<V>(frame, world, &next, &mut traced);
-        let reflected = wanted(frame, &children.reflected, &mut traced);
-        let transmitted = wanted(frame, &children.transmitted, &mut traced);
-        if reflected && transmitted {
-            // Of rays at the same depth one waits at most, so there is room.
-            stack[waiting] = children.transmitted;
-            waiting += 1;
-            next = children.reflected;
-        } else if reflected {
-            next = children.reflected;
-        } else if transmitted {
-            next = children.transmitted;
-        } else if waiting > 0 {
+        let mut is_found = false;
+        let mut i = 0;
+        // One body for both: the environment would be in the kernel twice.
+        while i < 2 {
+            let child = if i == 0 {
+                children.reflected
+            } else {
+                children.transmitted
+            };
+            i += 1;
+            let weight = max_component(child.weight);
+            if weight > frame.cutoff && child.depth <= frame.depth && child.depth <= MAX_DEPTH && traced.rays < MAX_RAYS
+            {
+                if is_found {
+                    // Of rays at the same depth one waits at most, so there is room.
+                    stack[waiting] = child;
+                    waiting += 1;
+                } else {
+                    next = child;
+                    is_found = true;
+                }
+            } else if weight > 0.0 {
+                let appearance = &world.appearance;
+                traced.color += child.weight
+                    * frame
+                        .environment
+                        .radiance(appearance.textures, appearance.texels, child.direction);
+                if child.depth != OUTSIDE {
+                    traced.cut += weight;
+                }
+            }
+        }
+        if !is_found {
+            if waiting == 0 {
+                return traced;
+            }
             waiting -= 1;
             next = stack[waiting];
-        } else {
-            return traced;
         }
     }
-}
-
-/// Whether a ray is worth following; what is not is counted.
-fn wanted(frame: &Frame, ray: &Pending, traced: &mut Traced) -> bool {
-    let weight = max_component(ray.weight);
-    let wanted = weight > frame.cutoff && ray.depth <= frame.depth && ray.depth <= MAX_DEPTH && traced.rays < MAX_RAYS;
-    if !wanted {
-        traced.cut += weight;
-    }
-    wanted
 }
 
 /// What a ray goes on as; weight zero for nothing.
@@ -124,6 +136,9 @@ struct Children {
     reflected: Pending,
     transmitted: Pending,
 }
+
+/// [`Pending::depth`] of a ray that has left the scene: nobody follows it.
+const OUTSIDE: u32 = u32::MAX;
 
 fn follow<V: Traversal>(frame: &Frame, world: &World<'_>, from: &Pending, traced: &mut Traced) -> Children {
     let appearance = &world.appearance;
@@ -137,21 +152,23 @@ fn follow<V: Traversal>(frame: &Frame, world: &World<'_>, from: &Pending, traced
     };
     let ray = Ray::new(from.origin, from.direction);
     let hit = closest_hit::<V, true>(frame, world, &ray);
-    if !hit.is_hit() {
-        let seen = frame
-            .environment
-            .radiance(appearance.textures, appearance.texels, ray.direction);
-        traced.color += from.weight * seen;
-        return children;
-    }
-    let surface = Surface::new::<true>(frame, world, &ray, &hit);
-    let material = &surface.material;
     let around = from.media.current(appearance.materials);
     let mut weight = from.weight;
     if around != 0 {
         let absorption = load(appearance.materials, around - 1).absorption;
+        // Of a ray that never leaves what absorbs, nothing is left: a miss has the largest `t`.
         weight *= attenuation(absorption, hit.t * ray.direction.length());
     }
+    if !hit.is_hit() {
+        children.reflected = Pending {
+            depth: OUTSIDE,
+            weight,
+            ..*from
+        };
+        return children;
+    }
+    let surface = Surface::new::<true>(frame, world, &ray, &hit);
+    let material = &surface.material;
     let mut beyond = from.media;
     let mut from_index = if around == 0 {
         1.0
@@ -188,7 +205,12 @@ fn follow<V: Traversal>(frame: &Frame, world: &World<'_>, from: &Pending, traced
         }
     }
     let view = -ray.direction.normalize();
-    let shaded = shade::<V, true>(frame, world, &surface, view, weight, traced);
+    let viewer = Viewer {
+        direction: view,
+        weight,
+        media: from.media,
+    };
+    let shaded = shade::<V, true>(frame, world, &surface, &viewer, traced);
     traced.color += weight * shaded;
 
     let mut mirror = material.mirror;

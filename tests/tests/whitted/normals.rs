@@ -8,9 +8,10 @@ use oktant::scene::Scene;
 use oktant_shared::environment::Environment;
 use oktant_shared::frame::Frame;
 use oktant_shared::material::{Material, SMOOTH_NORMALS};
+use oktant_shared::medium::Media;
 use oktant_shared::optics::reflected;
 use oktant_shared::ray::Ray;
-use oktant_shared::shading::shade;
+use oktant_shared::shading::{Viewer, shade};
 use oktant_shared::surface::Surface;
 use oktant_shared::texture::{Texture, WAVES};
 use oktant_shared::trace::closest_hit;
@@ -144,13 +145,17 @@ fn shown(mesh: &Mesh, seed: u64) -> Vec<Shown> {
                 shadow_point: surface.point,
                 ..surface
             };
-            let view = -ray.direction.normalize();
+            let viewer = Viewer {
+                direction: -ray.direction.normalize(),
+                weight: Vec3::ONE,
+                media: Media::AIR,
+            };
             all.push(Shown {
                 triangle: hit.triangle,
                 cosine: surface.normal.dot(towards),
                 round: surface.point.normalize().dot(towards).max(0.0),
                 lifted: see(&scene, &frame, &ray).color.x,
-                flat: shade::<Standard, true>(&frame, &world, &flat, view, Vec3::ONE, &mut { Traced::NOTHING }).x,
+                flat: shade::<Standard, true>(&frame, &world, &flat, &viewer, &mut { Traced::NOTHING }).x,
             });
         }
     }
