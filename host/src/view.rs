@@ -151,7 +151,7 @@ impl View {
             depth: self.depth,
             cutoff: self.cutoff,
             stereo: self.stereo.map_or(MONO, |stereo| stereo.code()),
-            reserved: 0,
+            first_row: 0,
             media: media_at(scene, camera.eye).to_eye(),
         }
     }

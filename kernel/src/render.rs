@@ -1,6 +1,6 @@
 //! The picture, and what each pixel sees.
 
-use glam::{UVec3, Vec2, Vec3Swizzles, Vec4};
+use glam::{UVec3, Vec2, Vec4, uvec2};
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
 use oktant_shared::light::Light;
@@ -39,7 +39,7 @@ macro_rules! pixels {
             #[spirv(storage_buffer, descriptor_set = 3, binding = 6)] textures: &[Texture],
             #[spirv(storage_buffer, descriptor_set = 3, binding = 7)] texels: &[u32],
         ) {
-            let pixel = id.xy();
+            let pixel = uvec2(id.x, id.y + frame.first_row);
             let size = frame.size();
             if pixel.x < size.x && pixel.y < size.y {
                 let world = World {

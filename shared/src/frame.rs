@@ -51,8 +51,8 @@ pub struct Frame {
     pub cutoff: f32,
     /// How two eyes share the picture: one of [`crate::stereo`].
     pub stereo: u32,
-    /// Fills the row.
-    pub reserved: u32,
+    /// First row of the picture that this pass renders: devices may not take all of it at once.
+    pub first_row: u32,
     /// What the camera is inside of: see [`crate::medium::Media::of_eye`].
     pub media: UVec4,
 }

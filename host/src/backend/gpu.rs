@@ -69,7 +69,7 @@ impl GpuBackend {
             .map(|_| {
                 let mut encoder = self.gpu.encoder();
                 self.gpu
-                    .encode_render(&mut encoder, &self.scene, &picture, frame, Some(&timer))?;
+                    .encode_render(&mut encoder, &self.scene, &picture, frame, size.y, Some(&timer))?;
                 timer.finish(&self.gpu, encoder)
             })
             .collect()
@@ -157,23 +157,34 @@ impl Backend for GpuBackend {
         let (width, height) = frame.size().into();
         let pixels = u64::from(width) * u64::from(height);
         let picture = self.gpu.picture_and_work(width, height, pixels)?;
-        let rays = if self.scene.entry == PLAIN {
+        let budget = if self.scene.entry == PLAIN {
             RAYS_PER_DISPATCH
         } else {
             TREES_PER_DISPATCH
         };
-        let samples_per_dispatch = (rays / pixels.max(1)).clamp(1, u64::from(frame.sample_count)) as u32;
-        let mut done = 0;
-        while done < frame.sample_count {
-            let pass = Frame {
-                first_sample: frame.first_sample + done,
-                sample_count: samples_per_dispatch.min(frame.sample_count - done),
-                ..*frame
-            };
-            self.gpu.render_pass(&self.scene, &picture, &pass)?;
-            self.gpu.wait()?;
-            done += pass.sample_count;
-            progress("rendering", done as f32 / frame.sample_count as f32);
+        // lavapipe leaves all loops of a pixel when they have taken 65,535 turns together: a sample at a time.
+        let most = if self.gpu.is_software() { 1 } else { frame.sample_count };
+        let samples = (budget / pixels.max(1)).clamp(1, u64::from(most)) as u32;
+        // Whole workgroups: a row of the next band must not be added twice.
+        let rows = (budget / u64::from(width.max(1) * samples)) as u32 / TILE * TILE;
+        let rows = rows.clamp(TILE, height.next_multiple_of(TILE));
+        for first_sample in (0..frame.sample_count).step_by(samples as usize) {
+            for first_row in (0..height).step_by(rows as usize) {
+                let pass = Frame {
+                    first_sample: frame.first_sample + first_sample,
+                    sample_count: samples.min(frame.sample_count - first_sample),
+                    first_row,
+                    ..*frame
+                };
+                let mut encoder = self.gpu.encoder();
+                let band = rows.min(height - first_row);
+                self.gpu
+                    .encode_render(&mut encoder, &self.scene, &picture, &pass, band, None)?;
+                self.gpu.queue.submit([encoder.finish()]);
+                self.gpu.wait()?;
+                let done = f64::from(first_sample) + f64::from(pass.sample_count * (first_row + band)) / f64::from(height);
+                progress("rendering", (done / f64::from(frame.sample_count)) as f32);
+            }
         }
         Ok(Picture {
             width,
@@ -217,20 +228,8 @@ impl Backend for GpuBackend {
 }
 
 impl Gpu {
-    /// Queues a pass of samples; they are added to the picture, or overwrite it where the pass begins with sample 0.
-    ///
-    /// Returns before the device has done it. The frame's size must be the picture's.
-    ///
-    /// # Errors
-    /// [`BackendError::Failed`] where the device is lost.
-    pub fn render_pass(&self, scene: &GpuScene, picture: &GpuPicture, frame: &Frame) -> Result<(), BackendError> {
-        let mut encoder = self.encoder();
-        self.encode_render(&mut encoder, scene, picture, frame, None)?;
-        self.queue.submit([encoder.finish()]);
-        self.check()
-    }
-
-    /// As [`Gpu::render_pass`], and waits for it: returns the milliseconds that the kernel took by the device's own
+    /// Renders a pass of samples and waits for it; they are added to the picture, or overwrite it where the pass begins with
+    /// sample 0. The frame's size must be the picture's. Returns the milliseconds that the kernel took by the device's own
     /// clock, or by the host's where the device has none or is software, whose clock does not wait for its threads.
     ///
     /// # Errors
@@ -244,13 +243,13 @@ impl Gpu {
         let mut encoder = self.encoder();
         let timer = if self.is_software() { None } else { Timer::new(self) };
         if let Some(timer) = timer {
-            self.encode_render(&mut encoder, scene, picture, frame, Some(&timer))?;
+            self.encode_render(&mut encoder, scene, picture, frame, picture.height, Some(&timer))?;
             timer.finish(self, encoder)
         } else {
             // Not to be counted, should it be made only now.
             self.pipeline(scene.entry)?;
             let start = std::time::Instant::now();
-            self.encode_render(&mut encoder, scene, picture, frame, None)?;
+            self.encode_render(&mut encoder, scene, picture, frame, picture.height, None)?;
             self.queue.submit([encoder.finish()]);
             self.wait()?;
             Ok(start.elapsed().as_secs_f64() * 1e3)
@@ -263,6 +262,7 @@ impl Gpu {
         scene: &GpuScene,
         picture: &GpuPicture,
         frame: &Frame,
+        rows: u32,
         timer: Option<&Timer>,
     ) -> Result<(), BackendError> {
         debug_assert_eq!(frame.size(), uvec2(picture.width, picture.height));
@@ -277,7 +277,7 @@ impl Gpu {
         pass.set_bind_group(1, &frame_group, &[]);
         pass.set_bind_group(2, &picture.group, &[]);
         pass.set_bind_group(3, &scene.appearance, &[]);
-        pass.dispatch_workgroups(picture.width.div_ceil(TILE), picture.height.div_ceil(TILE), 1);
+        pass.dispatch_workgroups(picture.width.div_ceil(TILE), rows.div_ceil(TILE), 1);
         Ok(())
     }
 
