@@ -49,7 +49,7 @@ pub struct Assembly<'a> {
 /// The first thing that is wrong.
 pub fn assemble(description: &Description, folder: &Path, progress: Progress<'_>) -> Result<Setting, Fault> {
     let up = description.up.into();
-    let mut textures = Textures::read(&description.textures, folder)?;
+    let mut textures = Textures::read(&description.textures, &description.materials, folder)?;
     let environment = description.environment.build(&mut textures, folder, up)?;
     let mut assembly = Assembly {
         folder,
