@@ -25,7 +25,7 @@ pub struct Material {
     pub diffuse: Option<Part>,
     /// Colour of the highlight. Default: 0.22.
     pub specular: Option<Reflectance>,
-    /// Exponent of the highlight, 0 (none) or 1 (wide) to 1e6 (tiny). Default: 40.
+    /// Exponent of the highlight, 0 (none), or 1 (wide) to 1e6 (tiny). Default: 40.
     pub exponent: Option<Exponent>,
     /// How the highlight is computed: "blinn" or "phong". Default: "blinn".
     pub highlight: Highlight,

@@ -25,7 +25,7 @@ fn paths_are_relative_to_the_scene() {
     image::Rgb32FImage::from_pixel(4, 2, image::Rgb([3.0, 0.5, -1.0]))
         .save(folder.path().join("parts/sky.exr"))
         .unwrap();
-    let content = "[environment]\nimage = 'parts/sky.exr'\nstrength = 2\nrotation = 90\n\
+    let content = "[environment]\nimage = 'parts/sky.exr'\nstrength = 2\nrotation = 720090\n\
                    [textures.red]\nfile = 'parts/red.png'\n[[mesh]]\nfile = 'parts/triangle.ply'\n\
                    [[mesh]]\nfile = 'parts/triangle.ply'\ntranslate = [2, 0, 0]\n";
     let setting = read_in(&folder, content).unwrap();
