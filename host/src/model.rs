@@ -63,6 +63,11 @@ pub fn plain_material() -> Material {
     }
 }
 
+/// Whether something of a material lies at places that texture coordinates say.
+pub fn needs_coordinates(material: &Material) -> bool {
+    material.texture != NO_TEXTURE || material.bump != NO_TEXTURE
+}
+
 /// The colour of meshes that have none, linear RGB.
 pub const CLAY: Vec3 = Vec3::new(0.62, 0.58, 0.53);
 

@@ -10,6 +10,8 @@ use rayon::prelude::*;
 pub const LARGEST_SIDE: u32 = 32_768;
 /// Pictures have no more pixels than this: they must fit into memory.
 pub const LARGEST_PICTURE: u64 = 1 << 28;
+/// Width and height of pictures, and of the window, where nobody says them.
+pub const DEFAULT_SIZE: [u32; 2] = [1280, 968];
 
 /// Sums of samples, row by row from the upper left.
 #[derive(Clone, Debug, PartialEq)]

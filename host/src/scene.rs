@@ -1,7 +1,11 @@
 //! A model with its octree, in the arrays that the kernel reads.
 
+mod validate;
+
+pub use validate::InvalidModel;
+
 use crate::mesh::Mesh;
-use crate::model::{Focus, Model, white_light};
+use crate::model::{Focus, Model, needs_coordinates, white_light};
 use crate::octree::{InvalidOctree, Octree, OctreeError, OctreeOptions};
 use crate::progress::Progress;
 use bytemuck::Zeroable;
@@ -73,6 +77,9 @@ pub enum SceneError {
     /// There is nothing to build from.
     #[error(transparent)]
     Octree(#[from] OctreeError),
+    /// The model breaks a rule.
+    #[error(transparent)]
+    Model(#[from] InvalidModel),
     /// The build went wrong.
     #[error(transparent)]
     Invalid(#[from] InvalidOctree),
@@ -90,10 +97,10 @@ impl Scene {
     /// Builds the octree of a model's triangles and lays out its arrays.
     ///
     /// # Errors
-    /// [`SceneError::Octree`] where there is neither a triangle with an area nor a plane; [`SceneError::Invalid`] where
-    /// an index in the model is out of range.
+    /// [`SceneError::Octree`] where there is neither a triangle with an area nor a plane; [`SceneError::Model`] where the
+    /// model breaks a rule that a kernel relies on, such as an index out of range.
     pub fn of_model(model: Model, options: &OctreeOptions, progress: Progress<'_>) -> Result<Self, SceneError> {
-        check_indices(&model)?;
+        validate::validate(&model)?;
         let octree = match Octree::build(&model.mesh, options, progress) {
             Err(OctreeError::NoArea) if !model.planes.is_empty() => Octree::empty(),
             built => built?,
@@ -223,8 +230,7 @@ impl Scene {
         self.materials.len() == 1
             && !material.is_transmissive()
             && material.mirror == Vec3::ZERO
-            && material.texture == NO_TEXTURE
-            && material.bump == NO_TEXTURE
+            && !needs_coordinates(material)
             && self.light_count == 0
             && self.light.kind != AREA
             && self.plane_count == 0
@@ -262,60 +268,4 @@ fn never_empty<T: Zeroable>(mut elements: Vec<T>) -> Vec<T> {
         elements.push(T::zeroed());
     }
     elements
-}
-
-/// Makes sure of the indices that the kernel trusts.
-fn check_indices(model: &Model) -> Result<(), InvalidOctree> {
-    let invalid = |rule: String| Err(InvalidOctree(rule));
-    let mesh = &model.mesh;
-    let vertices = mesh.positions.len();
-    for (what, length) in [
-        ("normals", mesh.normals.len()),
-        ("colours", mesh.colors.len()),
-        ("texture coordinates", mesh.coordinates.len()),
-    ] {
-        if length != 0 && length != vertices {
-            return invalid(format!("there are {length} {what} for {vertices} vertices"));
-        }
-    }
-    if !model.material_ids.is_empty() && model.material_ids.len() != mesh.triangles.len() {
-        return invalid("not every triangle has a material".into());
-    }
-    let materials = model.materials.len() as u32;
-    let ids = model.material_ids.iter().copied();
-    if let Some(id) = ids
-        .chain(model.planes.iter().map(|plane| plane.material))
-        .find(|id| *id >= materials)
-    {
-        return invalid(format!("there is no material {id}"));
-    }
-    let textures = model.textures.len() as u32;
-    let used = model
-        .materials
-        .iter()
-        .flat_map(|material| [material.texture, material.bump]);
-    for id in used.chain([model.environment.texture]) {
-        if id != NO_TEXTURE && id >= textures {
-            return invalid(format!("there is no texture {id}"));
-        }
-    }
-    let needs_coordinates = |material: &Material| material.texture != NO_TEXTURE || material.bump != NO_TEXTURE;
-    let on_triangles = if model.material_ids.is_empty() {
-        needs_coordinates(&model.materials[0])
-    } else {
-        model
-            .material_ids
-            .iter()
-            .any(|id| needs_coordinates(&model.materials[*id as usize]))
-    };
-    if on_triangles && mesh.coordinates.is_empty() && !mesh.triangles.is_empty() {
-        return invalid("a texture lies on triangles without coordinates".into());
-    }
-    for texture in model.textures.iter().filter(|texture| texture.is_image()) {
-        let texels = u64::from(texture.first) + u64::from(texture.width) * u64::from(texture.height);
-        if texture.width == 0 || texture.height == 0 || texels > model.texels.len() as u64 {
-            return invalid("an image has too few texels".into());
-        }
-    }
-    Ok(())
 }

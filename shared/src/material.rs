@@ -15,7 +15,8 @@ pub const FRESNEL: u32 = 8;
 /// A material. All colours are linear RGB, 0 to 1 unless said otherwise.
 ///
 /// What a surface sends to the eye is `ambient + diffuse + specular + mirror + transmission`; whoever makes a material
-/// sees to it that the last three and the diffuse part together do not exceed 1.
+/// sees to it that `diffuse * base + mirror + transmission` does not exceed 1. Highlights stand for the image of a light
+/// that is too small to be met by rays, and come on top.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Material {

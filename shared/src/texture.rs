@@ -19,6 +19,8 @@ pub const SHARED_EXPONENT_IMAGE: u32 = 1;
 pub const CHECKERBOARD: u32 = 2;
 /// [`Texture::kind`]: sine waves along both axes, `repeats` a unit, 0 to 1.
 pub const WAVES: u32 = 3;
+/// [`Texture::kind`]: an image of one f32 a texel, linear: heights.
+pub const HEIGHT_IMAGE: u32 = 4;
 
 /// A texture over the unit square, repeated beyond it; `(0, 0)` is the lower left corner of an image.
 #[repr(C)]
@@ -30,7 +32,7 @@ pub struct Texture {
     pub width: u32,
     /// Image: rows. Checkerboard: the second colour.
     pub height: u32,
-    /// [`SRGB_IMAGE`], [`SHARED_EXPONENT_IMAGE`], [`CHECKERBOARD`] or [`WAVES`].
+    /// [`SRGB_IMAGE`], [`SHARED_EXPONENT_IMAGE`], [`CHECKERBOARD`], [`WAVES`] or [`HEIGHT_IMAGE`].
     pub kind: u32,
     /// How often an image or pattern is repeated a unit.
     pub repeats: f32,
@@ -43,10 +45,11 @@ const _: () = assert!(size_of::<Texture>() == 32);
 impl Texture {
     /// Whether it has texels.
     pub fn is_image(&self) -> bool {
-        self.kind == SRGB_IMAGE || self.kind == SHARED_EXPONENT_IMAGE
+        self.kind == SRGB_IMAGE || self.kind == SHARED_EXPONENT_IMAGE || self.kind == HEIGHT_IMAGE
     }
 
-    /// The colour at texture coordinates, linear RGB; between the middles of an image's texels it is interpolated.
+    /// The colour at texture coordinates, linear RGB; between the middles of an image's texels it is interpolated. Heights
+    /// are grey.
     pub fn color(&self, texels: &[u32], at: Vec2) -> Vec3 {
         let at = at * self.repeats;
         if self.kind == CHECKERBOARD {
@@ -56,7 +59,8 @@ impl Texture {
             return linear_color(if odd { self.height } else { self.width });
         }
         if self.kind == WAVES {
-            let wave = |x: f32| 0.5 + 0.25 * (x * core::f32::consts::TAU).sin();
+            // Half a period off, with the sign turned: Vulkan says how exact a sine is from -pi to pi only.
+            let wave = |x: f32| 0.5 - 0.25 * ((fraction(x) - 0.5) * core::f32::consts::TAU).sin();
             return Vec3::splat(wave(at.x) + wave(at.y) - 0.5);
         }
         self.image_color(texels, at)
@@ -90,6 +94,8 @@ impl Texture {
         let texel = load(texels, self.first + row * self.width + column);
         if self.kind == SRGB_IMAGE {
             linear_color(texel)
+        } else if self.kind == HEIGHT_IMAGE {
+            Vec3::splat(f32::from_bits(texel))
         } else {
             // 2^(e - 15 - 9), e in 0 to 31: the bits of a normal number.
             let scale = f32::from_bits(((texel >> 27) + 127 - 24) << 23);
@@ -98,7 +104,7 @@ impl Texture {
         }
     }
 
-    /// The height at texture coordinates: how bright it is, 0 to 1 for images of 8 bits.
+    /// The height at texture coordinates: what a [`HEIGHT_IMAGE`] says, else how bright it is in linear light.
     pub fn height(&self, texels: &[u32], at: Vec2) -> f32 {
         let color = self.color(texels, at);
         (color.x + color.y + color.z) / 3.0
@@ -149,14 +155,14 @@ fn fraction(x: f32) -> f32 {
     x - x.floor()
 }
 
-/// The index of a column or row, -1 or `count` at the ends.
+/// The index of a column or row, -1 or `count` at the ends; 0 for what is no number, as the fraction of infinity is.
 fn wrap(index: f32, count: u32) -> u32 {
     if index < 0.0 {
         count - 1
-    } else if index as u32 >= count {
-        0
-    } else {
+    } else if index < count as f32 {
         index as u32
+    } else {
+        0
     }
 }
 
@@ -208,6 +214,45 @@ mod tests {
             }
         }
         assert_eq!(bright.color(&[shared_exponent(Vec3::ZERO)], Vec2::ZERO), Vec3::ZERO);
+    }
+
+    #[test]
+    fn heights_are_linear() {
+        let ramp = Texture {
+            kind: HEIGHT_IMAGE,
+            ..image(4, 1)
+        };
+        let texels = [0.0_f32, 0.25, 0.5, -3.0].map(f32::to_bits);
+        assert_eq!(ramp.color(&texels, vec2(0.625, 0.5)), Vec3::splat(0.5));
+        assert_eq!(ramp.height(&texels, vec2(0.875, 0.5)), -3.0);
+        // Half-way between the texels, whose middles are a quarter apart.
+        assert_eq!(ramp.height(&texels, vec2(0.25, 0.5)), 0.125);
+        let slope = ramp.slope(&texels, vec2(0.375, 0.5));
+        assert!(slope.abs_diff_eq(vec2(1.0, 0.0), 1e-6), "{slope}");
+    }
+
+    #[test]
+    fn coordinates_without_end_stay_within_the_image() {
+        for at in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN, 3e38] {
+            let color = image(2, 2).color(&[0; 4], vec2(at, -at));
+            assert!(color == Vec3::ZERO || color.is_nan(), "{at}: {color}");
+        }
+    }
+
+    #[test]
+    fn waves_are_sines_however_far() {
+        let waves = Texture {
+            kind: WAVES,
+            ..image(0, 0)
+        };
+        for i in -40..40 {
+            let x = i as f32 / 16.0;
+            let exact = 0.5 + 0.25 * (x * core::f32::consts::TAU).sin();
+            for far in [0.0, 1000.0, -1000.0] {
+                let height = waves.height(&[], vec2(x + far, 0.0));
+                assert!((height - exact).abs() < 1e-6, "{x}: {height} and {exact}");
+            }
+        }
     }
 
     #[test]

@@ -6,7 +6,7 @@ use oktant::backend::BackendChoice;
 use oktant::backend::gpu::ModulePath;
 use oktant::octree::OctreeOptions;
 use oktant::output::Bits;
-use oktant::picture::{LARGEST_PICTURE, LARGEST_SIDE};
+use oktant::picture::{DEFAULT_SIZE, LARGEST_PICTURE, LARGEST_SIDE};
 use oktant::sampling::{Filter, Pattern, Samples};
 use oktant::stereo::{Stereo, StereoMode};
 use oktant::tone::Curve;
@@ -295,10 +295,7 @@ pub struct Size {
 
 impl Default for Size {
     fn default() -> Self {
-        Size {
-            width: 1280,
-            height: 968,
-        }
+        DEFAULT_SIZE.into()
     }
 }
 

@@ -7,16 +7,14 @@ use super::place::Place;
 use super::texture::Textures;
 use crate::mesh::Mesh;
 use crate::mesh_source::MeshSource;
-use crate::model::{AMBIENT, Focus, Model};
+use crate::model::{AMBIENT, Focus, Model, needs_coordinates};
 use crate::progress::Progress;
 use crate::source::Setting;
 use crate::transform::Transform;
 use crate::view::View;
 use glam::{DMat3, DVec3, Vec2, Vec3};
-use oktant_shared::material::Material;
 use oktant_shared::orbit::Up;
 use oktant_shared::plane::PLANE;
-use oktant_shared::texture::NO_TEXTURE;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -49,7 +47,7 @@ pub struct Assembly<'a> {
 /// The first thing that is wrong.
 pub fn assemble(description: &Description, folder: &Path, progress: Progress<'_>) -> Result<Setting, Fault> {
     let up = description.up.into();
-    let mut textures = Textures::read(&description.textures, folder)?;
+    let mut textures = Textures::read(&description.textures, &description.materials, folder)?;
     let environment = description.environment.build(&mut textures, folder, up)?;
     let mut assembly = Assembly {
         folder,
@@ -184,10 +182,6 @@ impl Assembly<'_> {
         }
         Ok(())
     }
-}
-
-fn needs_coordinates(material: &Material) -> bool {
-    material.texture != NO_TEXTURE || material.bump != NO_TEXTURE
 }
 
 /// Adds a mesh with normals to another one. Where only one of them has colours or texture coordinates, the vertices of

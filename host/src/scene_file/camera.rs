@@ -37,7 +37,7 @@ impl Camera {
             view.field_of_view = fov.0;
         }
         if let Some(azimuth) = self.azimuth {
-            view.camera.azimuth = azimuth.0;
+            view.camera.azimuth = azimuth.0 as f32;
         }
         if let Some(elevation) = self.elevation {
             view.camera.elevation = elevation.0;

@@ -48,7 +48,10 @@ impl Environment {
         if let Some(image) = &self.image {
             built.texture = textures.add_image(&folder.join(image), &place.key("image"))?;
             built.strength = self.strength.map_or(1.0, |strength| strength.0);
-            built.rotation = self.rotation.map_or(0.0, |degrees| degrees.0 / 360.0);
+            built.rotation = self.rotation.map_or(0.0, |degrees| {
+                // Whole turns would take digits from the rest.
+                (degrees.0 / 360.0).rem_euclid(1.0) as f32
+            });
         }
         Ok(built)
     }

@@ -25,7 +25,7 @@ pub struct Material {
     pub diffuse: Option<Part>,
     /// Colour of the highlight. Default: 0.22.
     pub specular: Option<Reflectance>,
-    /// Exponent of the highlight, 0 (none) or 1 (wide) to 1e6 (tiny). Default: 40.
+    /// Exponent of the highlight, 0 (none), or 1 (wide) to 1e6 (tiny). Default: 40.
     pub exponent: Option<Exponent>,
     /// How the highlight is computed: "blinn" or "phong". Default: "blinn".
     pub highlight: Highlight,
@@ -45,9 +45,9 @@ pub struct Material {
     pub fresnel: Option<bool>,
     /// Name of the texture that the base colour is multiplied with. Default: none.
     pub texture: Option<String>,
-    /// Name of the texture whose brightness is the height of the surface. Default: none.
+    /// Name of the texture that says how high the surface is. Default: none.
     pub bump: Option<String>,
-    /// Height of white in the bump texture, scene units; negative makes dents. Default: 0.05.
+    /// What heights of 1 (white) in the bump texture stand for, scene units; negative makes dents. Default: 0.05.
     pub bump_height: Option<Height>,
     /// Whether the base colour is multiplied with the colours of meshes that have some. Default: true.
     pub vertex_colors: Option<bool>,
@@ -84,9 +84,13 @@ impl Material {
         if let Some((channel, part)) = channels.into_iter().find(|(_, part)| *part > 1.0 + TOLERANCE) {
             return Err(Fault::new(place, Reason::Energy { part, channel }));
         }
-        let texture = |name: &Option<String>, key: &str| match name {
-            Some(name) => textures.id(name, &place.key(key)),
-            None => Ok(NO_TEXTURE),
+        let texture = match &self.texture {
+            Some(name) => textures.color_id(name, &place.key("texture"))?,
+            None => NO_TEXTURE,
+        };
+        let bump = match &self.bump {
+            Some(name) => textures.height_id(name, &place.key("bump"))?,
+            None => NO_TEXTURE,
         };
         let flag = |is_set: bool, flag: u32| if is_set { flag } else { 0 };
         Ok(material::Material {
@@ -100,8 +104,8 @@ impl Material {
             ior: self.ior.map_or(1.5, |ior| ior.0),
             absorption: self.absorption.map_or(Vec3::ZERO, |color| color.0),
             priority: self.priority.map_or(0, |priority| priority.0),
-            texture: texture(&self.texture, "texture")?,
-            bump: texture(&self.bump, "bump")?,
+            texture,
+            bump,
             bump_height: self.bump_height.map_or(0.05, |height| height.0),
             flags: flag(self.vertex_colors.unwrap_or(true), VERTEX_COLORS)
                 | flag(self.smooth.unwrap_or(true), SMOOTH_NORMALS)

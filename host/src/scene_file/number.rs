@@ -71,6 +71,8 @@ macro_rules! quantities {
 quantities! { false, f64:
     /// A coordinate, scene units.
     Coordinate in -1e9..=1e9, "a number from -1e9 to 1e9";
+    /// An angle, degrees.
+    Degrees in -1e6..=1e6, "a number of degrees from -1e6 to 1e6";
 }
 
 quantities! { false, f32:
@@ -82,16 +84,12 @@ quantities! { false, f32:
     Amount in 0.0..=1e9, "a number from 0 to 1e9";
     /// A height over the surface, scene units.
     Height in -1e6..=1e6, "a height from -1e6 to 1e6";
-    /// An angle, degrees.
-    Degrees in -1e6..=1e6, "a number of degrees from -1e6 to 1e6";
     /// An angle above the horizon, degrees.
     Elevation in -90.0..=90.0, "a number of degrees from -90 to 90";
     /// A field of view, degrees.
     FieldOfView in 1.0..=170.0, "a number of degrees from 1 to 170";
     /// An index of refraction.
     Ior in 0.1..=10.0, "an index of refraction from 0.1 to 10";
-    /// Exponent of a highlight.
-    Exponent in 0.0..=1e6, "an exponent from 0 to 1e6";
     /// An exposure, stops.
     Stops in -30.0..=30.0, "a number of stops from -30 to 30";
     /// How often a texture is repeated.
@@ -140,6 +138,29 @@ impl<'de> Deserialize<'de> for Factor {
             return Err(D::Error::invalid_value(Unexpected::Float(factor), &Self::EXPECTED));
         }
         Ok(Factor(factor))
+    }
+}
+
+/// Exponent of a highlight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exponent(pub f32);
+
+impl Quantity for Exponent {
+    const EXPECTED: &'static str = "0, or an exponent from 1 to 1e6";
+}
+
+impl<'de> Deserialize<'de> for Exponent {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let range = Ranged {
+            range: 0.0..=1e6,
+            is_whole: false,
+            expected: Self::EXPECTED,
+        };
+        let exponent = deserializer.deserialize_any(range)?;
+        if exponent > 0.0 && exponent < 1.0 {
+            return Err(D::Error::invalid_value(Unexpected::Float(exponent), &Self::EXPECTED));
+        }
+        Ok(Exponent(exponent as f32))
     }
 }
 

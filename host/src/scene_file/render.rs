@@ -3,7 +3,7 @@
 use super::fault::{Fault, Reason};
 use super::number::{Depth, Part, Pixels, Stops};
 use super::place::Place;
-use crate::picture::{LARGEST_PICTURE, LARGEST_SIDE};
+use crate::picture::{DEFAULT_SIZE, LARGEST_PICTURE, LARGEST_SIDE};
 use crate::sampling::{Filter, Pattern, Samples};
 use crate::tone::Curve;
 use crate::view::{Shading, View};
@@ -39,18 +39,15 @@ pub struct Render {
     pub tone: Option<Curve>,
 }
 
-/// Width and height where the file gives only one of them.
-const SIZE: [u32; 2] = [1280, 968];
-
 impl Render {
-    /// Width and height in pixels, where the file says either.
+    /// Width and height in pixels, where the file says at least one of them.
     pub fn size(&self) -> Option<[u32; 2]> {
         if self.width.is_none() && self.height.is_none() {
             return None;
         }
         Some([
-            self.width.map_or(SIZE[0], |width| width.0),
-            self.height.map_or(SIZE[1], |height| height.0),
+            self.width.map_or(DEFAULT_SIZE[0], |width| width.0),
+            self.height.map_or(DEFAULT_SIZE[1], |height| height.0),
         ])
     }
 

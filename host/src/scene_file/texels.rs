@@ -3,7 +3,7 @@
 use super::fault::Reason;
 use glam::Vec3;
 use image::{DynamicImage, ImageError, ImageReader, Limits};
-use oktant_shared::texture::{SHARED_EXPONENT_IMAGE, SRGB_IMAGE, Texture, shared_exponent};
+use oktant_shared::texture::{HEIGHT_IMAGE, SHARED_EXPONENT_IMAGE, SRGB_IMAGE, Texture, shared_exponent};
 use rayon::prelude::*;
 use std::fs::File;
 use std::io::{BufReader, ErrorKind};
@@ -17,13 +17,14 @@ const MOST_TEXELS: usize = 1 << 26;
 const MOST_BYTES: u64 = 2 << 30;
 /// The largest value that a texel with a shared exponent holds.
 const BRIGHTEST: f32 = 65_408.0;
+/// The largest height, so that slopes stay finite.
+const HIGHEST: f32 = 1e6;
 
-/// Reads an image and adds its texels, the upper left one first: with a common exponent where its channels are floating
-/// point numbers (HDR, EXR), else with 8 bits a channel. What it says about transparency is ignored.
+/// Reads an image. What it says about transparency is ignored.
 ///
 /// # Errors
 /// Why it cannot be had.
-pub fn read(path: &Path, texels: &mut Vec<u32>) -> Result<Texture, Reason> {
+pub fn read(path: &Path) -> Result<DynamicImage, Reason> {
     let unreadable = |reason: std::io::Error| match reason.kind() {
         ErrorKind::NotFound => Reason::NoFile(path.to_path_buf()),
         _ => Reason::File {
@@ -47,13 +48,18 @@ pub fn read(path: &Path, texels: &mut Vec<u32>) -> Result<Texture, Reason> {
     limits.max_image_height = Some(LONGEST_SIDE);
     limits.max_alloc = Some(MOST_BYTES);
     reader.limits(limits);
-    let image = reader.decode().map_err(broken)?;
-    let (width, height) = (image.width(), image.height());
-    let first = texels.len();
-    if first + width as usize * height as usize > MOST_TEXELS {
-        return Err(Reason::TooManyTexels(MOST_TEXELS));
-    }
+    reader.decode().map_err(broken)
+}
+
+/// Adds the colours of an image, the upper left one first: with a common exponent where its channels are floating point
+/// numbers (HDR, EXR), else with 8 bits a channel.
+///
+/// # Errors
+/// Where there are too many texels.
+pub fn add_colors(image: &DynamicImage, texels: &mut Vec<u32>) -> Result<Texture, Reason> {
     let is_float = matches!(image, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_));
+    let kind = if is_float { SHARED_EXPONENT_IMAGE } else { SRGB_IMAGE };
+    let texture = texture(image, kind, texels)?;
     if is_float {
         texels.par_extend(image.to_rgb32f().as_raw().par_chunks_exact(3).map(|pixel| {
             let channel = |value: f32| if value > 0.0 { value.min(BRIGHTEST) } else { 0.0 };
@@ -68,12 +74,78 @@ pub fn read(path: &Path, texels: &mut Vec<u32>) -> Result<Texture, Reason> {
                 .map(|pixel| u32::from_le_bytes([pixel[0], pixel[1], pixel[2], 0])),
         );
     }
+    Ok(texture)
+}
+
+/// Adds the heights of an image, the upper left one first: the mean of its channels, as they are where they are floating
+/// point numbers, else as a part of the largest number that 8 or 16 bits hold. Nothing is decoded: heights are no light.
+///
+/// # Errors
+/// Where there are too many texels.
+pub fn add_heights(image: &DynamicImage, texels: &mut Vec<u32>) -> Result<Texture, Reason> {
+    let texture = texture(image, HEIGHT_IMAGE, texels)?;
+    texels.par_extend(image.to_rgb32f().as_raw().par_chunks_exact(3).map(|pixel| {
+        let height = (f64::from(pixel[0]) + f64::from(pixel[1]) + f64::from(pixel[2])) / 3.0;
+        if height.is_nan() {
+            0
+        } else {
+            (height as f32).clamp(-HIGHEST, HIGHEST).to_bits()
+        }
+    }));
+    Ok(texture)
+}
+
+/// The texture whose texels are to be added next.
+fn texture(image: &DynamicImage, kind: u32, texels: &[u32]) -> Result<Texture, Reason> {
+    let (width, height) = (image.width(), image.height());
+    if texels.len() + width as usize * height as usize > MOST_TEXELS {
+        return Err(Reason::TooManyTexels(MOST_TEXELS));
+    }
     Ok(Texture {
-        first: first as u32,
+        first: texels.len() as u32,
         width,
         height,
-        kind: if is_float { SHARED_EXPONENT_IMAGE } else { SRGB_IMAGE },
+        kind,
         repeats: 1.0,
         reserved: [0; 3],
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::vec2;
+    use image::{ImageBuffer, Luma, Rgb, Rgb32FImage, RgbImage};
+
+    fn heights(image: DynamicImage) -> Vec<f32> {
+        // They come after what is there.
+        let mut texels = vec![7];
+        let texture = add_heights(&image, &mut texels).unwrap();
+        assert_eq!((texture.first, texture.kind), (1, HEIGHT_IMAGE));
+        assert_eq!(
+            texture.height(&texels, vec2(0.5 / image.width() as f32, 0.5)),
+            f32::from_bits(texels[1])
+        );
+        texels[1..].iter().map(|texel| f32::from_bits(*texel)).collect()
+    }
+
+    #[test]
+    fn heights_of_images_are_linear_and_keep_16_bits() {
+        let grey = ImageBuffer::from_fn(4, 1, |x, _| Luma([[0_u16, 1, 32_768, 65_535][x as usize]]));
+        assert_eq!(
+            heights(DynamicImage::ImageLuma16(grey)),
+            [0.0, 1.0 / 65_535.0, 32_768.0 / 65_535.0, 1.0]
+        );
+        let grey = ImageBuffer::from_fn(2, 1, |x, _| Luma([[128_u8, 255][x as usize]]));
+        assert_eq!(heights(DynamicImage::ImageLuma8(grey)), [128.0 / 255.0, 1.0]);
+        let mean = heights(RgbImage::from_pixel(1, 1, Rgb([255, 0, 51])).into());
+        assert!((mean[0] - 0.4).abs() < 1e-6, "{mean:?}");
+    }
+
+    #[test]
+    fn heights_of_floating_point_images_are_as_they_are() {
+        let values = [-2.5, 0.1, f32::NAN, f32::INFINITY];
+        let image = Rgb32FImage::from_fn(4, 1, |x, _| Rgb([values[x as usize]; 3]));
+        assert_eq!(heights(image.into()), [-2.5, 0.1, 0.0, HIGHEST]);
+    }
 }

@@ -21,6 +21,7 @@ use super::{ViewerError, ViewerOptions};
 use crate::backend::BackendChoice;
 use crate::backend::gpu::GpuOptions;
 use crate::model::Focus;
+use crate::picture::DEFAULT_SIZE;
 use crate::scene::Scene;
 use crate::source::Source;
 use crate::view::View;
@@ -30,8 +31,6 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::window::Window;
 
-/// Size of the window where nobody says it.
-const DEFAULT_SIZE: [u32; 2] = [1280, 968];
 /// A message is shown for so long.
 const MESSAGE: Duration = Duration::from_secs(8);
 

@@ -8,7 +8,7 @@ use oktant::scene::Scene;
 use oktant_shared::light::{AREA, DIRECTIONAL};
 use oktant_shared::material::{FRESNEL, PHONG_HIGHLIGHTS, SMOOTH_NORMALS};
 use oktant_shared::orbit::Up;
-use oktant_shared::texture::{CHECKERBOARD, SHARED_EXPONENT_IMAGE, SRGB_IMAGE};
+use oktant_shared::texture::{CHECKERBOARD, HEIGHT_IMAGE, NO_TEXTURE, SHARED_EXPONENT_IMAGE, SRGB_IMAGE};
 use std::fs;
 use tempfile::tempdir;
 
@@ -25,7 +25,7 @@ fn paths_are_relative_to_the_scene() {
     image::Rgb32FImage::from_pixel(4, 2, image::Rgb([3.0, 0.5, -1.0]))
         .save(folder.path().join("parts/sky.exr"))
         .unwrap();
-    let content = "[environment]\nimage = 'parts/sky.exr'\nstrength = 2\nrotation = 90\n\
+    let content = "[environment]\nimage = 'parts/sky.exr'\nstrength = 2\nrotation = 720090\n\
                    [textures.red]\nfile = 'parts/red.png'\n[[mesh]]\nfile = 'parts/triangle.ply'\n\
                    [[mesh]]\nfile = 'parts/triangle.ply'\ntranslate = [2, 0, 0]\n";
     let setting = read_in(&folder, content).unwrap();
@@ -83,6 +83,36 @@ fn materials_are_as_described() {
     );
     assert_eq!(squares.repeats, 4.0);
     assert_eq!(model.mesh.coordinates.len(), model.mesh.positions.len());
+}
+
+/// An image is stored as what it is used as: colours, heights, or both.
+#[test]
+fn bumps_are_heights() {
+    let folder = tempdir().unwrap();
+    let ramp = image::ImageBuffer::from_fn(300, 2, |x, _| image::Luma([x as u16 * 100 + 7]));
+    image::DynamicImage::ImageLuma16(ramp)
+        .save(folder.path().join("ramp.png"))
+        .unwrap();
+    let content = "[textures.a-both]\nfile = 'ramp.png'\n[textures.height]\nfile = 'ramp.png'\nrepeats = 3\n\
+                   [textures.unused]\nfile = 'ramp.png'\n\
+                   [materials.a]\ntexture = 'a-both'\nbump = 'a-both'\n[materials.b]\nbump = 'height'\n\
+                   [[sphere]]\nmaterial = 'a'\n[[sphere]]\nmaterial = 'b'\n";
+    let setting = read_in(&folder, content).unwrap();
+    let model = &setting.model;
+    let kinds: Vec<_> = model.textures.iter().map(|texture| texture.kind).collect();
+    assert_eq!(kinds, [SRGB_IMAGE, HEIGHT_IMAGE, HEIGHT_IMAGE, SRGB_IMAGE]);
+    let [a, b] = model.materials[..] else {
+        panic!("{} materials", model.materials.len());
+    };
+    assert_eq!((a.texture, a.bump, b.texture, b.bump), (0, 1, NO_TEXTURE, 2));
+    assert_eq!((model.textures[1].repeats, model.textures[2].repeats), (1.0, 3.0));
+    assert_eq!(setting.files.len(), 2);
+    // The ramp has one slope everywhere: neither the steps of 8 bits nor a curve.
+    let ramp = model.textures[1];
+    for x in 2..298 {
+        let slope = ramp.slope(&model.texels, glam::vec2((x as f32 + 0.3) / 300.0, 0.5)).x;
+        assert!((slope - 100.0 / 65_535.0 * 300.0).abs() < 1e-4, "{x}: {slope}");
+    }
 }
 
 /// Wherever a view has the light and the camera, the frame puts them where the file does.
