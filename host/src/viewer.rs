@@ -4,6 +4,7 @@
 //! script makes events too. The `Session` is the state that inputs change. What follows is done by threads: one
 //! renders, one loads a scene, one opens the GPU, one notices that a file was saved; they answer with a `Notice`. The window itself only draws.
 
+mod accident;
 mod application;
 mod caption;
 mod compose;
@@ -44,6 +45,7 @@ mod turns;
 mod watcher;
 mod work;
 
+pub use accident::Accident;
 pub use look::Look;
 pub use notice::LoadError;
 pub use screen::ScreenError;
@@ -114,6 +116,9 @@ pub enum ViewerError {
         /// What went wrong.
         reason: String,
     },
+    /// The window itself panicked.
+    #[error("The window was closed by a mistake in oktant ({0}); please report it, with what you did.")]
+    Accident(Accident),
 }
 
 /// Opens the window and returns when it is closed.
@@ -127,8 +132,9 @@ pub fn run(options: ViewerOptions) -> Result<(), ViewerError> {
     let mailbox = Mailbox::new(event_loop.create_proxy());
     let player = script.map(|script| Player::new(script, start));
     let mut application = Application::new(options, start, mailbox, player);
-    event_loop
-        .run_app(&mut application)
+    accident::silence_panics();
+    accident::caught(|| event_loop.run_app(&mut application))
+        .map_err(ViewerError::Accident)?
         .map_err(|error| ViewerError::Window(error.to_string()))?;
     application.finish()
 }

@@ -1,9 +1,11 @@
 //! Reading a scene and building its octree beside the window.
 
+use super::accident::caught;
 use super::notice::{LoadError, Mailbox, Notice};
 use super::watcher::Stamps;
 use crate::model::Focus;
 use crate::octree::OctreeOptions;
+use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::source::Source;
 use crate::view::View;
@@ -42,24 +44,30 @@ pub fn load(load: u64, source: Source, octree: OctreeOptions, mailbox: &Mailbox)
                 mailbox.send(Notice::Loading { load, stage, fraction });
             }
         };
-        let load_scene = || -> Result<_, LoadError> {
-            let began = SystemTime::now();
-            let setting = source.load(&progress)?;
-            let stamps = Stamps::new(setting.files, began);
-            let focus = setting.model.focus;
-            let scene = Scene::of_model(setting.model, &octree, &progress).map_err(|error| LoadError::Scene {
+        let result = caught(|| arrive(&source, &octree, &progress)).unwrap_or_else(|accident| {
+            Err(LoadError::Accident {
                 name: source.to_string(),
-                source: error,
-            })?;
-            Ok(Box::new(Arrival {
-                scene: Arc::new(scene),
-                view: setting.view,
-                focus,
-                size: setting.size,
-                stamps,
-            }))
-        };
-        let result = load_scene();
+                accident,
+            })
+        });
         mailbox.send(Notice::Loaded { load, result });
     });
+}
+
+fn arrive(source: &Source, octree: &OctreeOptions, progress: Progress<'_>) -> Result<Box<Arrival>, LoadError> {
+    let began = SystemTime::now();
+    let setting = source.load(progress)?;
+    let stamps = Stamps::new(setting.files, began);
+    let focus = setting.model.focus;
+    let scene = Scene::of_model(setting.model, octree, progress).map_err(|error| LoadError::Scene {
+        name: source.to_string(),
+        source: error,
+    })?;
+    Ok(Box::new(Arrival {
+        scene: Arc::new(scene),
+        view: setting.view,
+        focus,
+        size: setting.size,
+        stamps,
+    }))
 }

@@ -1,7 +1,7 @@
 //! What follows from the notices of the threads.
 
 use super::application::Application;
-use super::notice::{Notice, Rendered};
+use super::notice::{Notice, RenderError, Rendered};
 use super::schedule::Quality;
 use super::screen::Screen;
 use super::showing::Part;
@@ -54,11 +54,16 @@ impl Application {
                 }
             }
             Notice::Finished(result) => {
+                if let Err(error @ RenderError::Accident(_)) = &result {
+                    // The same picture would go wrong again.
+                    self.schedule.gives_up();
+                    self.tell(error.to_string(), true);
+                }
                 if matches!(self.work, Work::Show { .. }) {
                     self.schedule.finished();
                 }
                 self.work = Work::Idle;
-                if let Err(error) = result {
+                if let Err(RenderError::Backend(error)) = result {
                     self.gpu_failed(error.and_the_cpu_renders(), now);
                 }
             }

@@ -1,6 +1,7 @@
 //! The thread that renders, so that the window never waits.
 
-use super::notice::{Image, Mailbox, Notice, Rendered, SaveError};
+use super::accident::caught;
+use super::notice::{Image, Mailbox, Notice, RenderError, Rendered, SaveError};
 use super::pace::Pace;
 use super::passes::{passes, rays};
 use super::pictures;
@@ -114,21 +115,36 @@ impl Refinement {
 impl Worker {
     fn work(mut self, queue: &Receiver<Task>) {
         while let Ok(task) = queue.recv() {
-            let result = match (&task.purpose, &task.engine) {
-                (Purpose::Save(destination), _) => {
-                    let saved = self.save(&task, destination);
+            let result = match &task.purpose {
+                Purpose::Save(destination) => {
+                    let saved = caught(|| self.save(&task, destination));
+                    let saved = saved.unwrap_or_else(|accident| Err(SaveError::Accident(accident)));
                     self.mailbox.send(Notice::Saved(saved));
                     Ok(())
                 }
-                (Purpose::Show { .. }, Engine::Cpu) => {
-                    self.uploaded = None;
-                    self.spare.clear();
-                    self.show_cpu(&task);
-                    Ok(())
-                }
-                (Purpose::Show { .. }, Engine::Gpu(gpu)) => self.show_gpu(&task, gpu),
+                Purpose::Show { .. } => self.show(&task),
             };
             self.mailbox.send(Notice::Finished(result));
+        }
+    }
+
+    fn show(&mut self, task: &Task) -> Result<(), RenderError> {
+        match &task.engine {
+            Engine::Cpu => caught(|| {
+                self.uploaded = None;
+                self.spare.clear();
+                self.show_cpu(task);
+            })
+            .map_err(RenderError::Accident),
+            Engine::Gpu(gpu) => {
+                let shown = caught(|| self.show_gpu(task, gpu)).unwrap_or_else(|accident| {
+                    Err(BackendError::Failed {
+                        adapter: gpu.name.clone(),
+                        reason: format!("by a mistake in oktant or its driver: {accident}; please report it"),
+                    })
+                });
+                Ok(shown?)
+            }
         }
     }
 
