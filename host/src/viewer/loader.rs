@@ -1,6 +1,7 @@
 //! Reading a scene and building its octree beside the window.
 
 use super::accident::caught;
+use super::mentioned::mentioned;
 use super::notice::{LoadError, Mailbox, Notice};
 use super::watcher::Stamps;
 use crate::model::Focus;
@@ -31,6 +32,15 @@ pub struct Arrival {
     pub stamps: Stamps,
 }
 
+/// A scene that was not.
+#[derive(Debug)]
+pub struct Refusal {
+    /// Why.
+    pub error: LoadError,
+    /// The files that it may have been because of.
+    pub stamps: Stamps,
+}
+
 /// Begins to load a source; the mailbox learns how far it is, and gets the scene. `load` is the number under which it
 /// does.
 pub fn load(load: u64, source: Source, octree: OctreeOptions, mailbox: &Mailbox) {
@@ -44,18 +54,27 @@ pub fn load(load: u64, source: Source, octree: OctreeOptions, mailbox: &Mailbox)
                 mailbox.send(Notice::Loading { load, stage, fraction });
             }
         };
-        let result = caught(|| arrive(&source, &octree, &progress)).unwrap_or_else(|accident| {
+        let began = SystemTime::now();
+        let result = caught(|| arrive(&source, &octree, began, &progress)).unwrap_or_else(|accident| {
             Err(LoadError::Accident {
                 name: source.to_string(),
                 accident,
             })
         });
+        let result = result.map_err(|error| Refusal {
+            error,
+            stamps: Stamps::new(mentioned(&source), began),
+        });
         mailbox.send(Notice::Loaded { load, result });
     });
 }
 
-fn arrive(source: &Source, octree: &OctreeOptions, progress: Progress<'_>) -> Result<Box<Arrival>, LoadError> {
-    let began = SystemTime::now();
+fn arrive(
+    source: &Source,
+    octree: &OctreeOptions,
+    began: SystemTime,
+    progress: Progress<'_>,
+) -> Result<Box<Arrival>, LoadError> {
     let setting = source.load(progress)?;
     let stamps = Stamps::new(setting.files, began);
     let focus = setting.model.focus;

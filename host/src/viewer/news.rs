@@ -13,16 +13,11 @@ impl Application {
     pub(super) fn take_notice(&mut self, notice: Notice, now: Instant) {
         match notice {
             Notice::Loading { load, stage, fraction } => {
-                if load == self.loads
-                    && let Some(loading) = &mut self.loading
-                {
-                    (loading.stage, loading.fraction) = (stage, fraction);
+                if self.loads.progressed(load, stage, fraction) {
                     self.redraw();
                 }
             }
-            // An older one: another one was dropped meanwhile, or it was saved again.
-            Notice::Loaded { load, .. } if load != self.loads => {}
-            Notice::Loaded { result, .. } => self.take_load(result, now),
+            Notice::Loaded { load, result } => self.take_load(load, result, now),
             Notice::Changed => self.reload(),
             Notice::GpuOpened(Ok(gpu)) => {
                 self.gpu = GpuState::Open(gpu.0);

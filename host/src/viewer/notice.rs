@@ -1,7 +1,7 @@
 //! What the threads tell the window.
 
 use super::accident::Accident;
-use super::loader::Arrival;
+use super::loader::{Arrival, Refusal};
 use crate::backend::BackendError;
 use crate::backend::gpu::{Gpu, GpuPicture};
 use crate::output::OutputError;
@@ -29,7 +29,7 @@ pub enum Notice {
         /// Number of the load.
         load: u64,
         /// What came of it.
-        result: Result<Box<Arrival>, LoadError>,
+        result: Result<Box<Arrival>, Refusal>,
     },
     /// A file of what is shown was saved.
     Changed,
