@@ -8,6 +8,7 @@ mod accident;
 mod application;
 mod caption;
 mod compose;
+mod depth_paces;
 mod draft;
 mod draw;
 mod event;

@@ -1,8 +1,8 @@
 //! The thread that renders, so that the window never waits.
 
 use super::accident::caught;
+use super::depth_paces::DepthPaces;
 use super::notice::{Image, Mailbox, Notice, RenderError, Rendered, SaveError};
-use super::pace::Pace;
 use super::passes::{passes, rays};
 use super::pictures;
 use super::task::{Destination, Engine, Plan, Purpose, Task};
@@ -81,7 +81,7 @@ struct Uploaded {
     gpu: Weak<Gpu>,
     scene: Weak<Scene>,
     there: GpuScene,
-    pace: Pace,
+    paces: DepthPaces,
 }
 
 /// A picture that is refined, and when it was shown.
@@ -227,7 +227,7 @@ impl Worker {
         number: Option<u64>,
     ) -> Result<bool, BackendError> {
         let mut refinement = Refinement::new(frame);
-        let is_quick = self.upload(gpu, &task.scene)?.pace.time(rays(frame)) <= GPU_PASS;
+        let is_quick = self.upload(gpu, &task.scene)?.paces.time(frame.depth, rays(frame)) <= GPU_PASS;
         let frames = if is_quick {
             vec![*frame]
         } else {
@@ -239,7 +239,7 @@ impl Worker {
             }
             let uploaded = self.upload(gpu, &task.scene)?;
             let milliseconds = gpu.render_pass_timed(&uploaded.there, picture, &pass)?;
-            uploaded.pace.measured(rays(&pass), milliseconds);
+            uploaded.paces.measured(pass.depth, rays(&pass), milliseconds);
             let shows = refinement.shows(&pass);
             self.passed(refinement.taken, &pass, milliseconds);
             if let (true, Some(number)) = (shows, number) {
@@ -262,7 +262,7 @@ impl Worker {
                 gpu: Arc::downgrade(gpu),
                 scene: Arc::downgrade(scene),
                 there: gpu.upload(scene)?,
-                pace: Pace::guessed(scene.is_plain()),
+                paces: DepthPaces::guessed(scene.is_plain()),
             },
         };
         Ok(self.uploaded.insert(uploaded))
