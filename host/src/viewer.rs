@@ -4,9 +4,11 @@
 //! script makes events too. The `Session` is the state that inputs change. What follows is done by threads: one
 //! renders, one loads a scene, one opens the GPU, one notices that a file was saved; they answer with a `Notice`. The window itself only draws.
 
+mod accident;
 mod application;
 mod caption;
 mod compose;
+mod depth_paces;
 mod draft;
 mod draw;
 mod event;
@@ -15,9 +17,11 @@ mod gpu_screen;
 mod grammar;
 mod handler;
 mod input;
+mod load_queue;
 mod loader;
 mod loads;
 mod look;
+mod mentioned;
 mod news;
 mod notice;
 mod opener;
@@ -44,6 +48,7 @@ mod turns;
 mod watcher;
 mod work;
 
+pub use accident::Accident;
 pub use look::Look;
 pub use notice::LoadError;
 pub use screen::ScreenError;
@@ -114,6 +119,9 @@ pub enum ViewerError {
         /// What went wrong.
         reason: String,
     },
+    /// The window itself panicked.
+    #[error("The window was closed by a mistake in oktant ({0}); please report it, with what you did.")]
+    Accident(Accident),
 }
 
 /// Opens the window and returns when it is closed.
@@ -127,8 +135,9 @@ pub fn run(options: ViewerOptions) -> Result<(), ViewerError> {
     let mailbox = Mailbox::new(event_loop.create_proxy());
     let player = script.map(|script| Player::new(script, start));
     let mut application = Application::new(options, start, mailbox, player);
-    event_loop
-        .run_app(&mut application)
+    accident::silence_panics();
+    accident::caught(|| event_loop.run_app(&mut application))
+        .map_err(ViewerError::Accident)?
         .map_err(|error| ViewerError::Window(error.to_string()))?;
     application.finish()
 }

@@ -4,6 +4,7 @@ use super::draft::{Draft, Paces};
 use super::event::Event;
 use super::figures::Figures;
 use super::input::Input;
+use super::load_queue::LoadQueue;
 use super::notice::{Image, Mailbox};
 use super::opener::open_gpu;
 use super::overlay::{Line, Overlay};
@@ -13,7 +14,7 @@ use super::schedule::Schedule;
 use super::screen::Screen;
 use super::session::{Effect, Session};
 use super::showing::Part;
-use super::state::{GpuState, Loading, Message, Work};
+use super::state::{GpuState, Message, Work};
 use super::task::{Destination, Task};
 use super::translation::Translation;
 use super::watcher::Watcher;
@@ -60,10 +61,7 @@ pub struct Application {
     pub(super) focus: Option<Focus>,
     /// Notices when a file of the scene is saved.
     pub(super) watcher: Watcher,
-    /// What is being loaded.
-    pub(super) loading: Option<Loading>,
-    /// Loads begun.
-    pub(super) loads: u64,
+    pub(super) loads: LoadQueue,
     /// Loads done of what was shown already.
     pub(super) reloads: u64,
     pub(super) gpu: GpuState,
@@ -116,8 +114,7 @@ impl Application {
             source: options.source.clone(),
             focus: None,
             watcher: Watcher::start(mailbox.clone()),
-            loading: None,
-            loads: 0,
+            loads: LoadQueue::default(),
             reloads: 0,
             gpu: GpuState::Closed,
             wants_gpu: false,

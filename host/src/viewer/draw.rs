@@ -141,13 +141,13 @@ impl Application {
     }
 
     fn loading_text(&self) -> Option<String> {
-        let loading = self.loading.as_ref()?;
+        let loading = self.loads.loading()?;
         let percent = (loading.fraction * 100.0).round();
         Some(format!("{} {}: {percent} %", loading.stage, loading.source))
     }
 
     fn title(&self) -> String {
-        match (&self.loading, &self.scene) {
+        match (self.loads.loading(), &self.scene) {
             (Some(_), _) => format!("oktant - {}", self.loading_text().unwrap_or_default()),
             (None, Some(scene)) => format!(
                 "oktant - {} - {} triangles - {}",

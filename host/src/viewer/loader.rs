@@ -1,9 +1,12 @@
 //! Reading a scene and building its octree beside the window.
 
+use super::accident::caught;
+use super::mentioned::mentioned;
 use super::notice::{LoadError, Mailbox, Notice};
 use super::watcher::Stamps;
 use crate::model::Focus;
 use crate::octree::OctreeOptions;
+use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::source::Source;
 use crate::view::View;
@@ -29,6 +32,15 @@ pub struct Arrival {
     pub stamps: Stamps,
 }
 
+/// A scene that was not.
+#[derive(Debug)]
+pub struct Refusal {
+    /// Why.
+    pub error: LoadError,
+    /// The files that it may have been because of.
+    pub stamps: Stamps,
+}
+
 /// Begins to load a source; the mailbox learns how far it is, and gets the scene. `load` is the number under which it
 /// does.
 pub fn load(load: u64, source: Source, octree: OctreeOptions, mailbox: &Mailbox) {
@@ -42,24 +54,39 @@ pub fn load(load: u64, source: Source, octree: OctreeOptions, mailbox: &Mailbox)
                 mailbox.send(Notice::Loading { load, stage, fraction });
             }
         };
-        let load_scene = || -> Result<_, LoadError> {
-            let began = SystemTime::now();
-            let setting = source.load(&progress)?;
-            let stamps = Stamps::new(setting.files, began);
-            let focus = setting.model.focus;
-            let scene = Scene::of_model(setting.model, &octree, &progress).map_err(|error| LoadError::Scene {
+        let began = SystemTime::now();
+        let result = caught(|| arrive(&source, &octree, began, &progress)).unwrap_or_else(|accident| {
+            Err(LoadError::Accident {
                 name: source.to_string(),
-                source: error,
-            })?;
-            Ok(Box::new(Arrival {
-                scene: Arc::new(scene),
-                view: setting.view,
-                focus,
-                size: setting.size,
-                stamps,
-            }))
-        };
-        let result = load_scene();
+                accident,
+            })
+        });
+        let result = result.map_err(|error| Refusal {
+            error,
+            stamps: Stamps::new(mentioned(&source), began),
+        });
         mailbox.send(Notice::Loaded { load, result });
     });
+}
+
+fn arrive(
+    source: &Source,
+    octree: &OctreeOptions,
+    began: SystemTime,
+    progress: Progress<'_>,
+) -> Result<Box<Arrival>, LoadError> {
+    let setting = source.load(progress)?;
+    let stamps = Stamps::new(setting.files, began);
+    let focus = setting.model.focus;
+    let scene = Scene::of_model(setting.model, octree, progress).map_err(|error| LoadError::Scene {
+        name: source.to_string(),
+        source: error,
+    })?;
+    Ok(Box::new(Arrival {
+        scene: Arc::new(scene),
+        view: setting.view,
+        focus,
+        size: setting.size,
+        stamps,
+    }))
 }

@@ -2,8 +2,7 @@
 
 use super::application::Application;
 use super::draft::Paces;
-use super::loader::{self, Arrival};
-use super::notice::LoadError;
+use super::loader::{self, Arrival, Refusal};
 use super::state::Loading;
 use crate::source::Source;
 use std::time::Instant;
@@ -12,43 +11,44 @@ use winit::dpi::PhysicalSize;
 impl Application {
     /// Begins to load a source in place of what is shown.
     pub(super) fn load(&mut self, source: Source) {
-        self.begin_load(source, false);
+        let load = self.loads.open(source);
+        self.begin_load(Some(load));
     }
 
     /// Reads again what is shown: one of its files was saved.
     pub(super) fn reload(&mut self) {
-        // What somebody just dropped takes the place of what was saved.
-        if self.loading.as_ref().is_none_or(|loading| loading.is_reload) {
-            self.begin_load(self.source.clone(), true);
+        let load = self.loads.reload(&self.source);
+        self.begin_load(load);
+    }
+
+    fn begin_load(&mut self, load: Option<u64>) {
+        if let (Some(load), Some(loading)) = (load, self.loads.loading()) {
+            loader::load(load, loading.source.clone(), self.options.octree, &self.mailbox);
+            self.redraw();
         }
     }
 
-    fn begin_load(&mut self, source: Source, is_reload: bool) {
-        self.loads += 1;
-        self.loading = Some(Loading {
-            source: source.clone(),
-            stage: "reading",
-            fraction: 0.0,
-            is_reload,
-        });
-        loader::load(self.loads, source, self.options.octree, &self.mailbox);
-        self.redraw();
-    }
-
-    /// Takes what the loader made of the newest load.
-    pub(super) fn take_load(&mut self, result: Result<Box<Arrival>, LoadError>, now: Instant) {
-        let Some(loading) = self.loading.take() else { return };
+    /// Takes what the loader made of a load.
+    pub(super) fn take_load(&mut self, load: u64, result: Result<Box<Arrival>, Refusal>, now: Instant) {
+        let Some(loading) = self.loads.ended(load, result.is_ok()) else {
+            return;
+        };
         self.reloads += u64::from(loading.is_reload);
         match result {
             Ok(arrival) => self.take_arrival(loading, *arrival, now),
-            Err(error) if self.scene.is_none() => self.fail(error),
-            Err(error) => {
-                self.tell(error.to_string(), true);
+            Err(refusal) if self.scene.is_none() => self.fail(refusal.error),
+            Err(refusal) => {
+                self.tell(refusal.error.to_string(), true);
                 if let Some(message) = &mut self.message {
                     message.is_about_load = true;
                 }
+                if loading.is_reload {
+                    self.watcher.watch_also(refusal.stamps);
+                }
             }
         }
+        let next = self.loads.next(&self.source);
+        self.begin_load(next);
     }
 
     fn take_arrival(&mut self, loading: Loading, arrival: Arrival, now: Instant) {

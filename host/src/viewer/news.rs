@@ -1,7 +1,7 @@
 //! What follows from the notices of the threads.
 
 use super::application::Application;
-use super::notice::{Notice, Rendered};
+use super::notice::{Notice, RenderError, Rendered};
 use super::schedule::Quality;
 use super::screen::Screen;
 use super::showing::Part;
@@ -13,16 +13,11 @@ impl Application {
     pub(super) fn take_notice(&mut self, notice: Notice, now: Instant) {
         match notice {
             Notice::Loading { load, stage, fraction } => {
-                if load == self.loads
-                    && let Some(loading) = &mut self.loading
-                {
-                    (loading.stage, loading.fraction) = (stage, fraction);
+                if self.loads.progressed(load, stage, fraction) {
                     self.redraw();
                 }
             }
-            // An older one: another one was dropped meanwhile, or it was saved again.
-            Notice::Loaded { load, .. } if load != self.loads => {}
-            Notice::Loaded { result, .. } => self.take_load(result, now),
+            Notice::Loaded { load, result } => self.take_load(load, result, now),
             Notice::Changed => self.reload(),
             Notice::GpuOpened(Ok(gpu)) => {
                 self.gpu = GpuState::Open(gpu.0);
@@ -54,11 +49,16 @@ impl Application {
                 }
             }
             Notice::Finished(result) => {
+                if let Err(error @ RenderError::Accident(_)) = &result {
+                    // The same picture would go wrong again.
+                    self.schedule.gives_up();
+                    self.tell(error.to_string(), true);
+                }
                 if matches!(self.work, Work::Show { .. }) {
                     self.schedule.finished();
                 }
                 self.work = Work::Idle;
-                if let Err(error) = result {
+                if let Err(RenderError::Backend(error)) = result {
                     self.gpu_failed(error.and_the_cpu_renders(), now);
                 }
             }

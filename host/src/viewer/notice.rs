@@ -1,6 +1,7 @@
 //! What the threads tell the window.
 
-use super::loader::Arrival;
+use super::accident::Accident;
+use super::loader::{Arrival, Refusal};
 use crate::backend::BackendError;
 use crate::backend::gpu::{Gpu, GpuPicture};
 use crate::output::OutputError;
@@ -28,7 +29,7 @@ pub enum Notice {
         /// Number of the load.
         load: u64,
         /// What came of it.
-        result: Result<Box<Arrival>, LoadError>,
+        result: Result<Box<Arrival>, Refusal>,
     },
     /// A file of what is shown was saved.
     Changed,
@@ -46,7 +47,7 @@ pub enum Notice {
         milliseconds: f64,
     },
     /// The task is over, because it is done or was cancelled, or because the back end failed.
-    Finished(Result<(), BackendError>),
+    Finished(Result<(), RenderError>),
     /// A picture was written, or could not be.
     Saved(Result<PathBuf, SaveError>),
 }
@@ -119,6 +120,27 @@ pub enum LoadError {
         /// What is missing.
         source: SceneError,
     },
+    /// Reading it panicked.
+    #[error("{name}: this could not be read by a mistake in oktant ({accident}); please report it, with the file.")]
+    Accident {
+        /// Where it came from.
+        name: String,
+        /// What the panic says.
+        accident: Accident,
+    },
+}
+
+/// Why there is no picture to show.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// The GPU failed.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
+    /// The CPU panicked.
+    #[error(
+        "The picture could not be rendered by a mistake in oktant ({0}); please report it, with the scene's files."
+    )]
+    Accident(Accident),
 }
 
 /// Why a picture was not saved.
@@ -130,6 +152,9 @@ pub enum SaveError {
     /// It cannot be rendered.
     #[error(transparent)]
     Backend(#[from] BackendError),
+    /// Rendering or writing it panicked.
+    #[error("The picture could not be saved by a mistake in oktant ({0}); please report it, with the scene's files.")]
+    Accident(Accident),
 }
 
 /// The way to the window, for any number of threads.

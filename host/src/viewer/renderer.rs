@@ -1,7 +1,8 @@
 //! The thread that renders, so that the window never waits.
 
-use super::notice::{Image, Mailbox, Notice, Rendered, SaveError};
-use super::pace::Pace;
+use super::accident::caught;
+use super::depth_paces::DepthPaces;
+use super::notice::{Image, Mailbox, Notice, RenderError, Rendered, SaveError};
 use super::passes::{passes, rays};
 use super::pictures;
 use super::task::{Destination, Engine, Plan, Purpose, Task};
@@ -80,7 +81,7 @@ struct Uploaded {
     gpu: Weak<Gpu>,
     scene: Weak<Scene>,
     there: GpuScene,
-    pace: Pace,
+    paces: DepthPaces,
 }
 
 /// A picture that is refined, and when it was shown.
@@ -114,21 +115,36 @@ impl Refinement {
 impl Worker {
     fn work(mut self, queue: &Receiver<Task>) {
         while let Ok(task) = queue.recv() {
-            let result = match (&task.purpose, &task.engine) {
-                (Purpose::Save(destination), _) => {
-                    let saved = self.save(&task, destination);
+            let result = match &task.purpose {
+                Purpose::Save(destination) => {
+                    let saved = caught(|| self.save(&task, destination));
+                    let saved = saved.unwrap_or_else(|accident| Err(SaveError::Accident(accident)));
                     self.mailbox.send(Notice::Saved(saved));
                     Ok(())
                 }
-                (Purpose::Show { .. }, Engine::Cpu) => {
-                    self.uploaded = None;
-                    self.spare.clear();
-                    self.show_cpu(&task);
-                    Ok(())
-                }
-                (Purpose::Show { .. }, Engine::Gpu(gpu)) => self.show_gpu(&task, gpu),
+                Purpose::Show { .. } => self.show(&task),
             };
             self.mailbox.send(Notice::Finished(result));
+        }
+    }
+
+    fn show(&mut self, task: &Task) -> Result<(), RenderError> {
+        match &task.engine {
+            Engine::Cpu => caught(|| {
+                self.uploaded = None;
+                self.spare.clear();
+                self.show_cpu(task);
+            })
+            .map_err(RenderError::Accident),
+            Engine::Gpu(gpu) => {
+                let shown = caught(|| self.show_gpu(task, gpu)).unwrap_or_else(|accident| {
+                    Err(BackendError::Failed {
+                        adapter: gpu.name.clone(),
+                        reason: format!("by a mistake in oktant or its driver: {accident}; please report it"),
+                    })
+                });
+                Ok(shown?)
+            }
         }
     }
 
@@ -211,7 +227,7 @@ impl Worker {
         number: Option<u64>,
     ) -> Result<bool, BackendError> {
         let mut refinement = Refinement::new(frame);
-        let is_quick = self.upload(gpu, &task.scene)?.pace.time(rays(frame)) <= GPU_PASS;
+        let is_quick = self.upload(gpu, &task.scene)?.paces.time(frame.depth, rays(frame)) <= GPU_PASS;
         let frames = if is_quick {
             vec![*frame]
         } else {
@@ -223,7 +239,7 @@ impl Worker {
             }
             let uploaded = self.upload(gpu, &task.scene)?;
             let milliseconds = gpu.render_pass_timed(&uploaded.there, picture, &pass)?;
-            uploaded.pace.measured(rays(&pass), milliseconds);
+            uploaded.paces.measured(pass.depth, rays(&pass), milliseconds);
             let shows = refinement.shows(&pass);
             self.passed(refinement.taken, &pass, milliseconds);
             if let (true, Some(number)) = (shows, number) {
@@ -246,7 +262,7 @@ impl Worker {
                 gpu: Arc::downgrade(gpu),
                 scene: Arc::downgrade(scene),
                 there: gpu.upload(scene)?,
-                pace: Pace::guessed(scene.is_plain()),
+                paces: DepthPaces::guessed(scene.is_plain()),
             },
         };
         Ok(self.uploaded.insert(uploaded))

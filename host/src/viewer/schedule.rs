@@ -110,6 +110,13 @@ impl Schedule {
         self.change(now);
     }
 
+    /// The renderer is free again, but the picture cannot be had: it is not tried again.
+    pub fn gives_up(&mut self) {
+        if let Some(running) = self.running.take() {
+            self.shows(running.number, Quality::Final);
+        }
+    }
+
     /// The renderer is free again.
     pub fn finished(&mut self) {
         self.running = None;
@@ -143,6 +150,17 @@ mod tests {
         schedule.finished();
         assert!(schedule.is_settled());
         assert_eq!(schedule.next(rested), Decision::Nothing, "no work without a change");
+    }
+
+    #[test]
+    fn what_cannot_be_had_is_not_tried_again() {
+        let start = Instant::now();
+        let mut schedule = Schedule::new(start);
+        schedule.started(Quality::Draft);
+        schedule.gives_up();
+        assert_eq!(schedule.next(start), Decision::Nothing);
+        schedule.change(start);
+        assert_eq!(schedule.next(start), Decision::Start(Quality::Draft));
     }
 
     #[test]

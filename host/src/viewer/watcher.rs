@@ -37,7 +37,15 @@ fn stamp(path: &Path) -> Option<Stamp> {
 }
 
 /// The thread that looks at files; it ends when this is dropped.
-pub struct Watcher(Sender<Stamps>);
+pub struct Watcher(Sender<Watch>);
+
+/// What the thread is told.
+enum Watch {
+    /// To look at these files.
+    Only(Stamps),
+    /// To look at these files, too.
+    Also(Stamps),
+}
 
 impl Watcher {
     /// Starts the thread; the mailbox gets a [`Notice::Changed`] whenever one of its files was saved.
@@ -47,7 +55,8 @@ impl Watcher {
             let mut watched = Watched::default();
             loop {
                 match files.recv_timeout(INTERVAL) {
-                    Ok(stamps) => watched.replace(stamps),
+                    Ok(Watch::Only(stamps)) => watched.replace(stamps),
+                    Ok(Watch::Also(stamps)) => watched.extend(stamps),
                     Err(RecvTimeoutError::Timeout) if watched.has_changed() => mailbox.send(Notice::Changed),
                     Err(RecvTimeoutError::Timeout) => {}
                     Err(RecvTimeoutError::Disconnected) => return,
@@ -60,7 +69,12 @@ impl Watcher {
     /// Looks at these files from now on, and no longer at others.
     pub fn watch(&self, stamps: Stamps) {
         // The thread is gone only when the window is.
-        drop(self.0.send(stamps));
+        drop(self.0.send(Watch::Only(stamps)));
+    }
+
+    /// Looks at these files, too.
+    pub fn watch_also(&self, stamps: Stamps) {
+        drop(self.0.send(Watch::Also(stamps)));
     }
 }
 
@@ -80,6 +94,12 @@ impl Watched {
             }
         }
         self.stamps = stamps;
+    }
+
+    fn extend(&mut self, stamps: Stamps) {
+        for (path, stamp) in stamps.0 {
+            self.stamps.0.entry(path).or_insert(stamp);
+        }
     }
 
     /// True once after files have changed, as soon as they rest. One that is missing is about to be replaced.
@@ -151,6 +171,27 @@ mod tests {
             assert!(!watched.has_changed());
         }
         assert!(watched.has_changed());
+    }
+
+    #[test]
+    fn files_are_added() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str| folder.path().join(name);
+        fs::write(file("a"), "one").unwrap();
+        let later = SystemTime::now() + Duration::from_secs(3600);
+        let mut watched = Watched::default();
+        watched.replace(Stamps::new(vec![file("a")], later));
+        fs::write(file("a"), "longer").unwrap();
+        watched.extend(Stamps::new(vec![file("a"), file("missing")], later));
+        assert_eq!(
+            looks(&mut watched),
+            ONCE,
+            "that it is named again does not hide the change"
+        );
+        fs::write(file("missing"), "here").unwrap();
+        assert_eq!(looks(&mut watched), ONCE);
+        fs::write(file("a"), "a").unwrap();
+        assert_eq!(looks(&mut watched), ONCE);
     }
 
     #[test]

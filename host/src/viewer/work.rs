@@ -93,7 +93,7 @@ impl Application {
     pub(super) fn is_settled(&self) -> bool {
         self.schedule.is_settled()
             && self.is_shown
-            && self.loading.is_none()
+            && self.loads.loading().is_none()
             && self.work == Work::Idle
             && self.saves.is_empty()
             && !matches!(self.gpu, GpuState::Opening { .. })
