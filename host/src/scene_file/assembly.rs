@@ -10,7 +10,7 @@ use crate::mesh_source::MeshSource;
 use crate::model::{AMBIENT, Focus, Model};
 use crate::progress::Progress;
 use crate::source::Setting;
-use crate::transform::Transform;
+use crate::transform::{Misplaced, Transform};
 use crate::view::View;
 use glam::{DMat3, DVec3, Vec2, Vec3};
 use oktant_shared::material::Material;
@@ -174,9 +174,16 @@ impl Assembly<'_> {
             let name = self.palette.name(*id).to_string();
             return Err(Fault::new(place, Reason::NoCoordinates(name)));
         }
-        let mesh = transform
-            .apply(mesh)
-            .ok_or_else(|| Fault::new(place, Reason::TooLarge))?;
+        let mesh = transform.apply(mesh).map_err(|misplaced| {
+            let reason = match misplaced {
+                Misplaced::TooLarge => Reason::TooLarge,
+                Misplaced::TooFar { center, extent } if place.is_below("mesh") => {
+                    Reason::MeshTooFar(rounded(transform.translation - center, extent))
+                }
+                Misplaced::TooFar { center, extent } => Reason::ShapeTooFar(rounded(-center, extent)),
+            };
+            Fault::new(place, reason)
+        })?;
         self.material_ids.extend_from_slice(materials);
         join(&mut self.mesh, mesh);
         if self.mesh.positions.len().max(self.mesh.triangles.len()) > MOST {
@@ -184,6 +191,13 @@ impl Assembly<'_> {
         }
         Ok(())
     }
+}
+
+/// A vector as a scene file has it, rounded to about a hundredth of the extent of what it moves.
+fn rounded(vector: DVec3, extent: f64) -> String {
+    let decimals = (2.0 - extent.log10().floor()).clamp(0.0, 12.0) as usize;
+    let coordinates = vector.to_array().map(|value| format!("{value:.decimals$}"));
+    format!("[{}]", coordinates.join(", "))
 }
 
 fn needs_coordinates(material: &Material) -> bool {

@@ -93,6 +93,15 @@ pub enum Reason {
     /// Coordinates that lead to overflow.
     #[error("reaches further than 1e15 from the origin; bring it nearer or make it smaller")]
     TooLarge,
+    /// A mesh that f32 cannot hold where it lies.
+    #[error(
+        "lies too far from the origin for single precision; bring it nearer with translate = {0}, and all that belongs \
+         to it by as much"
+    )]
+    MeshTooFar(String),
+    /// A shape that f32 cannot hold where it lies.
+    #[error("lies too far from the origin for single precision; move it and all that belongs to it by {0}")]
+    ShapeTooFar(String),
     /// More than ids can count.
     #[error("makes more than {0} triangles or vertices in all; leave something out")]
     TooMany(usize),
