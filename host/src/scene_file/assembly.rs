@@ -88,6 +88,7 @@ pub fn assemble(description: &Description, folder: &Path, progress: Progress<'_>
     let focus = description.camera.apply(&mut view, whole)?;
     description.render.apply(&mut view)?;
     view.stereo = description.stereo.as_ref().map(|stereo| stereo.build());
+    description.render.check_halves(&view)?;
     let lights = super::light::build_all(description.light.as_deref(), &mut view, focus.unwrap_or(whole))?;
     let materials = assembly.palette.into_used();
     let mut files = assembly.files;
@@ -196,7 +197,12 @@ impl Assembly<'_> {
 /// A vector as a scene file has it, rounded to about a hundredth of the extent of what it moves.
 fn rounded(vector: DVec3, extent: f64) -> String {
     let decimals = (2.0 - extent.log10().floor()).clamp(0.0, 12.0) as usize;
-    let coordinates = vector.to_array().map(|value| format!("{value:.decimals$}"));
+    let step = 10_f64.powi(-(decimals as i32));
+    let coordinates = vector.to_array().map(|value| {
+        // Zero has no sign.
+        let value = if value.abs() < step / 2.0 { 0.0 } else { value };
+        format!("{value:.decimals$}")
+    });
     format!("[{}]", coordinates.join(", "))
 }
 

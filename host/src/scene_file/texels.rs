@@ -2,6 +2,7 @@
 
 use super::fault::Reason;
 use glam::Vec3;
+use image::error::LimitErrorKind;
 use image::{DynamicImage, ImageError, ImageReader, Limits};
 use oktant_shared::texture::{SHARED_EXPONENT_IMAGE, SRGB_IMAGE, Texture, shared_exponent};
 use rayon::prelude::*;
@@ -35,9 +36,15 @@ pub fn read(path: &Path, texels: &mut Vec<u32>) -> Result<Texture, Reason> {
     if file.metadata().map_err(unreadable)?.is_dir() {
         return Err(unreadable(ErrorKind::IsADirectory.into()));
     }
-    let broken = |reason: ImageError| Reason::Image {
-        path: path.to_path_buf(),
-        reason,
+    let broken = |reason: ImageError| match reason {
+        ImageError::Limits(limit) if limit.kind() == LimitErrorKind::DimensionError => Reason::LongImage {
+            path: path.to_path_buf(),
+            most: LONGEST_SIDE,
+        },
+        reason => Reason::Image {
+            path: path.to_path_buf(),
+            reason,
+        },
     };
     let mut reader = ImageReader::new(BufReader::new(file))
         .with_guessed_format()
@@ -49,6 +56,9 @@ pub fn read(path: &Path, texels: &mut Vec<u32>) -> Result<Texture, Reason> {
     reader.limits(limits);
     let image = reader.decode().map_err(broken)?;
     let (width, height) = (image.width(), image.height());
+    if width == 0 || height == 0 {
+        return Err(Reason::EmptyImage(path.to_path_buf()));
+    }
     let first = texels.len();
     if first + width as usize * height as usize > MOST_TEXELS {
         return Err(Reason::TooManyTexels(MOST_TEXELS));
