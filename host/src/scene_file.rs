@@ -25,6 +25,7 @@ mod texels;
 mod texture;
 mod vector;
 
+use crate::octree::OctreeError;
 use crate::progress::Progress;
 use crate::scene::SceneError;
 use crate::source::Setting;
@@ -67,11 +68,17 @@ pub enum SceneFileError {
         message: String,
     },
     /// There is nothing in it that a ray can meet.
+    #[error(
+        "{}: no triangle of the scene has an area, so there is nothing to see; add a shape or a mesh that has one",
+        .0.display()
+    )]
+    NoArea(PathBuf),
+    /// It is too small or too large to be traced.
     #[error("{}: {error}", path.display())]
     Build {
         /// The scene file.
         path: PathBuf,
-        /// What is missing.
+        /// What is wrong.
         error: SceneError,
     },
     /// What it says cannot be.
@@ -86,6 +93,17 @@ pub enum SceneFileError {
         /// Which field is wrong, why, and what to do.
         sentence: String,
     },
+}
+
+impl SceneFileError {
+    /// Why the scene that a file describes cannot be built.
+    pub fn of_build(path: &Path, error: SceneError) -> Self {
+        let path = path.to_path_buf();
+        match error {
+            SceneError::Octree(OctreeError::NoArea) => SceneFileError::NoArea(path),
+            error => SceneFileError::Build { path, error },
+        }
+    }
 }
 
 /// Reads a scene file and everything that it refers to; `progress` hears of the meshes. Paths in it are relative to the

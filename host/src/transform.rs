@@ -1,11 +1,29 @@
 //! Moving, turning and scaling meshes.
 
 use crate::mesh::Mesh;
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Vec3};
 use rayon::prelude::*;
 
 /// Squares of coordinates up to this fit into 32 bits.
 const FARTHEST: f32 = 1e15;
+
+/// A mesh is refused whose size is less than this many steps between neighbouring f32 where it lies: its vertices would
+/// visibly snap to them.
+const LEAST_STEPS: f64 = 1000.0;
+
+/// Why a mesh cannot be put somewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Misplaced {
+    /// A coordinate would be beyond 1e15.
+    TooLarge,
+    /// It would be so small against its distance from the origin that f32 cannot hold its form.
+    TooFar {
+        /// The centre of its bounding box there, scene units.
+        center: DVec3,
+        /// The longest edge of its bounding box there, scene units.
+        extent: f64,
+    },
+}
 
 /// A linear map, then a translation. In f64, so that meshes far from the origin can be brought near it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,14 +54,17 @@ impl Transform {
         }
     }
 
-    /// The mesh moved there. A mirror image keeps its front outside: its triangles run the other way round. None where a
-    /// coordinate would be beyond 1e15.
+    /// The mesh moved there. A mirror image keeps its front outside: its triangles run the other way round.
     ///
-    /// [`Mesh::shift`] is undone first, so the mesh is moved from where its file has it.
-    pub fn apply(&self, mut mesh: Mesh) -> Option<Mesh> {
+    /// [`Mesh::shift`] is undone first, so the mesh is moved from where its file has it; f32 holds only the outcome.
+    ///
+    /// # Errors
+    /// Why f32 cannot hold it there.
+    pub fn apply(&self, mut mesh: Mesh) -> Result<Mesh, Misplaced> {
+        self.check(&mesh)?;
         let shift = mesh.shift;
         mesh.positions.par_iter_mut().for_each(|position| {
-            *position = (self.linear * (position.as_dvec3() + shift) + self.translation).as_vec3();
+            *position = self.point(*position, shift).as_vec3();
         });
         mesh.shift = DVec3::ZERO;
         if !mesh
@@ -51,7 +72,7 @@ impl Transform {
             .par_iter()
             .all(|position| position.abs().max_element() <= FARTHEST)
         {
-            return None;
+            return Err(Misplaced::TooLarge);
         }
         // Normals stay perpendicular to what they are normals of.
         let normals = self.linear.inverse().transpose();
@@ -64,14 +85,41 @@ impl Transform {
         if self.linear.determinant() < 0.0 {
             mesh.triangles.par_iter_mut().for_each(|triangle| triangle.swap(1, 2));
         }
-        Some(mesh)
+        Ok(mesh)
+    }
+
+    /// Where a position of a mesh with this shift comes to lie.
+    fn point(&self, position: Vec3, shift: DVec3) -> DVec3 {
+        self.linear * (position.as_dvec3() + shift) + self.translation
+    }
+
+    /// Makes sure that a mesh is not too small for where it comes to lie. One that is a point has no form to lose.
+    fn check(&self, mesh: &Mesh) -> Result<(), Misplaced> {
+        let corner = |corner: u32| self.point(mesh.positions[corner as usize], mesh.shift);
+        let nothing = || (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (low, high) = mesh
+            .triangles
+            .as_flattened()
+            .par_iter()
+            .fold(nothing, |(low, high), id| {
+                let position = corner(*id);
+                (low.min(position), high.max(position))
+            })
+            .reduce(nothing, |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let extent = (high - low).max_element();
+        let farthest = low.abs().max(high.abs()).max_element();
+        if extent > 0.0 && extent < farthest * f64::from(f32::EPSILON) * LEAST_STEPS {
+            let center = low.midpoint(high);
+            return Err(Misplaced::TooFar { center, extent });
+        }
+        Ok(())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{Vec3, dvec3, vec3};
+    use glam::{dvec3, vec3};
 
     fn triangle() -> Mesh {
         Mesh {
@@ -107,6 +155,16 @@ mod tests {
     #[test]
     fn what_would_overflow_is_refused() {
         let far = Transform::new(DVec3::splat(1e9), DVec3::ZERO, DVec3::ZERO);
-        assert_eq!(far.apply(triangle()), None);
+        assert_eq!(far.apply(triangle()), Err(Misplaced::TooLarge));
+    }
+
+    #[test]
+    fn what_lies_too_far_off_is_refused() {
+        let moved = |x| Transform::new(DVec3::ONE, DVec3::ZERO, dvec3(x, 0.0, 0.0)).apply(triangle());
+        let center = dvec3(1e6 + 0.5, 0.5, 0.0);
+        assert_eq!(moved(0.0), Err(Misplaced::TooFar { center, extent: 1.0 }));
+        assert_eq!(moved(-1e6).unwrap().positions, triangle().positions);
+        assert!(moved(-1e6 + 8000.0).is_ok());
+        assert!(moved(-1e6 + 9000.0).is_err());
     }
 }

@@ -121,6 +121,53 @@ fn wrong_arguments_are_refused_with_code_2() {
 }
 
 #[test]
+fn options_that_a_scene_gives_no_meaning_are_refused_with_code_2() {
+    let folder = folder();
+    fs::write(folder.path().join("a.toml"), "[[sphere]]\n").unwrap();
+    fs::write(folder.path().join("b.toml"), "[stereo]\n[[sphere]]\n").unwrap();
+    for (source, options, words) in [
+        ("a.toml", &["--up", "z"][..], "scene file"),
+        ("a.toml", &["--eye-distance", "0.1"], "--stereo"),
+        ("b.toml", &["--stereo", "none", "--convergence", "2"], "--stereo"),
+        ("b.toml", &["--size", "9x8"], "10x8"),
+        ("balls", &["--convergence", "2"], "--stereo"),
+        ("balls", &["--distance", "-1"], "0.001 to 100000"),
+    ] {
+        let arguments = [&["render", source, "-o", "a.png", "--backend", "cpu"], options].concat();
+        let run = run(folder.path(), &arguments);
+        assert_eq!(run.code, Some(2), "{arguments:?}: {}", run.error);
+        assert!(run.error.contains(words), "{words:?} is not in {:?}", run.error);
+    }
+    assert_eq!(names(folder.path()), ["a.toml", "b.toml", "triangle.ply"]);
+    let one_eye = [
+        "render",
+        "b.toml",
+        "-o",
+        "a.png",
+        "--size",
+        "9x8",
+        "--stereo",
+        "none",
+        "--backend",
+        "cpu",
+    ];
+    let run = run(folder.path(), one_eye);
+    assert_eq!(run.code, Some(0), "{}", run.error);
+}
+
+#[test]
+fn a_scene_without_areas_is_refused() {
+    let folder = folder();
+    fs::write(folder.path().join("points.ply"), ply(3, "3 0 0 0\n")).unwrap();
+    fs::write(folder.path().join("a.toml"), "[[mesh]]\nfile = 'points.ply'\n").unwrap();
+    let before = names(folder.path());
+    for arguments in [&["render", "a.toml", "-o", "a.png"][..], &["check", "a.toml"]] {
+        let failed = run(folder.path(), arguments);
+        assert_failed(folder.path(), &before, &failed, &["a.toml", "no triangle of the scene"]);
+    }
+}
+
+#[test]
 fn meshes_that_cannot_be_rendered_are_refused_with_code_1() {
     let folder = folder();
     let write = |name: &str, content: &str| fs::write(folder.path().join(name), content).unwrap();

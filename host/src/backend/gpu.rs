@@ -182,7 +182,8 @@ impl Backend for GpuBackend {
                     .encode_render(&mut encoder, &self.scene, &picture, &pass, band, None)?;
                 self.gpu.queue.submit([encoder.finish()]);
                 self.gpu.wait()?;
-                let done = f64::from(first_sample) + f64::from(pass.sample_count * (first_row + band)) / f64::from(height);
+                let done =
+                    f64::from(first_sample) + f64::from(pass.sample_count * (first_row + band)) / f64::from(height);
                 progress("rendering", (done / f64::from(frame.sample_count)) as f32);
             }
         }

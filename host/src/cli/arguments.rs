@@ -1,5 +1,7 @@
 //! What can stand on the command line.
 
+use super::Failure;
+use clap::builder::PossibleValue;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use oktant::aov::Aov;
 use oktant::backend::BackendChoice;
@@ -8,6 +10,7 @@ use oktant::octree::OctreeOptions;
 use oktant::output::Bits;
 use oktant::picture::{DEFAULT_SIZE, LARGEST_PICTURE, LARGEST_SIDE};
 use oktant::sampling::{Filter, Pattern, Samples};
+use oktant::source::Source;
 use oktant::stereo::{Stereo, StereoMode};
 use oktant::tone::Curve;
 use oktant::view::{Shading, View};
@@ -29,13 +32,13 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Look at a mesh in a window (H lists the keys).
+    /// Look at a scene or mesh in a window (H lists the keys).
     View(ViewArguments),
-    /// Render a picture of a mesh into a PNG or EXR file.
+    /// Render a picture of a scene or mesh into a PNG or EXR file.
     Render(RenderArguments),
     /// Read scene files with all that they refer to, and say what is in them, or what is wrong.
     Check(CheckArguments),
-    /// Print the figures of a mesh and of its octree, and the adapters at hand.
+    /// Print the figures of a scene or mesh and of its octree, and the adapters at hand.
     Info(InfoArguments),
     /// Print the completions of a shell, for example: oktant completions bash > ~/.bash_completion
     Completions {
@@ -132,63 +135,63 @@ pub struct MeshArguments {
 /// How the picture looks. What is not given is as the scene says, or as it is for a mesh alone.
 #[derive(Clone, Debug, Default, Args)]
 pub struct LookArguments {
-    /// Samples of a pixel [default: 1].
+    /// Samples of a pixel [default: as the scene says, else 1].
     #[arg(long, value_enum)]
     pub samples: Option<Samples>,
-    /// Where in a pixel the samples lie [default: regular].
+    /// Where in a pixel the samples lie [default: as the scene says, else regular].
     #[arg(long, value_enum)]
     pub pattern: Option<Pattern>,
-    /// How much each sample counts [default: box].
+    /// How much each sample counts [default: as the scene says, else box].
     #[arg(long, value_enum)]
     pub filter: Option<Filter>,
-    /// Normals: of the triangle (flat), or interpolated between the vertices (phong) [default: phong].
+    /// Normals: of the triangle (flat), or interpolated between the vertices (phong) [default: as the scene says, else phong].
     #[arg(long, value_enum)]
     pub shading: Option<Shading>,
-    /// How many times a ray may be reflected or refracted, 0 to 16 [default: 5].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_TREE_DEPTH)))]
+    /// How many times a ray may be reflected or refracted, 0 to 16 [default: as the scene says, else 5].
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_TREE_DEPTH)))]
     pub depth: Option<u32>,
-    /// Rays that can change no colour by more than this part of their light are left out [default: 0.002].
-    #[arg(long, value_name = "PART", value_parser = cutoff)]
+    /// Rays that can change no colour by more than this part of their light are left out [default: as the scene says, else 0.002].
+    #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = cutoff)]
     pub cutoff: Option<f32>,
     /// Where the camera stands, degrees: 0 in front (+Z, or -Y with --up z), counterclockwise seen from above
-    /// [default: 0].
+    /// [default: as the scene says, else 0].
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = finite)]
     pub azimuth: Option<f32>,
-    /// How high the camera stands, degrees above the horizon, -90 to 90 [default: 15].
+    /// How high the camera stands, degrees above the horizon, -90 to 90 [default: as the scene says, else 15].
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = elevation)]
     pub elevation: Option<f32>,
     /// How far the camera is from what it looks at, in radii of the mesh's bounding sphere; of a scene that has a
-    /// camera, in halves of the height that it sees [default: 2.8].
-    #[arg(long, value_name = "RADII", value_parser = distance)]
+    /// camera, in halves of the height that it sees [default: as the scene says, else 2.8].
+    #[arg(long, value_name = "RADII", allow_negative_numbers = true, value_parser = distance)]
     pub distance: Option<f32>,
-    /// Vertical field of view, degrees, 1 to 170 [default: 40].
-    #[arg(long, value_name = "DEGREES", value_parser = field_of_view)]
+    /// Vertical field of view, degrees, 1 to 170 [default: as the scene says, else 40].
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = field_of_view)]
     pub fov: Option<f32>,
-    /// Which axis points up [default: y].
+    /// Which axis of a mesh points up; a scene file says it itself [default: y].
     #[arg(long, value_enum)]
     pub up: Option<UpArgument>,
-    /// Where the first light stands, degrees, counted like --azimuth [default: -40].
+    /// Where the first light stands, degrees, counted like --azimuth [default: as the scene says, else -40].
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = finite)]
     pub light_azimuth: Option<f32>,
-    /// How high the first light stands, degrees above the horizon, -90 to 90 [default: 50].
+    /// How high the first light stands, degrees above the horizon, -90 to 90 [default: as the scene says, else 50].
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = elevation)]
     pub light_elevation: Option<f32>,
-    /// How far the first light is, counted like --distance [default: 6].
-    #[arg(long, value_name = "RADII", value_parser = distance)]
+    /// How far the first light is, counted like --distance [default: as the scene says, else 6].
+    #[arg(long, value_name = "RADII", allow_negative_numbers = true, value_parser = distance)]
     pub light_distance: Option<f32>,
-    /// Pictures for two eyes.
+    /// Pictures for two eyes [default: as the scene says, else none].
     #[arg(long, value_enum)]
-    pub stereo: Option<StereoMode>,
-    /// Distance between the eyes, scene units [default: a thirtieth of --convergence].
-    #[arg(long, value_name = "UNITS", value_parser = length)]
+    pub stereo: Option<StereoArgument>,
+    /// Distance between the eyes, scene units [default: as the scene says, else a thirtieth of --convergence].
+    #[arg(long, value_name = "UNITS", allow_negative_numbers = true, value_parser = length)]
     pub eye_distance: Option<f32>,
-    /// Depth that appears on the screen itself, scene units [default: what the camera looks at].
-    #[arg(long, value_name = "UNITS", value_parser = length)]
+    /// Depth that appears on the screen itself, scene units [default: as the scene says, else what the camera looks at].
+    #[arg(long, value_name = "UNITS", allow_negative_numbers = true, value_parser = length)]
     pub convergence: Option<f32>,
-    /// Brightness in stops: each doubles the light; not for EXR files [default: 0].
+    /// Brightness in stops: each doubles the light; not for EXR files [default: as the scene says, else 0].
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = exposure)]
     pub exposure: Option<f32>,
-    /// Curve that makes bright light fit the screen; not for EXR files [default: none].
+    /// Curve that makes bright light fit the screen; not for EXR files [default: as the scene says, else none].
     #[arg(long, value_enum)]
     pub tone: Option<Curve>,
 }
@@ -221,8 +224,8 @@ impl LookArguments {
         set(&mut view.light.distance, self.light_distance);
         set(&mut view.tone.exposure, self.exposure);
         set(&mut view.tone.curve, self.tone);
-        if let Some(mode) = self.stereo {
-            view.stereo = Some(Stereo {
+        if let Some(StereoArgument(mode)) = self.stereo {
+            view.stereo = mode.map(|mode| Stereo {
                 mode,
                 ..view.stereo.unwrap_or(Stereo::new(mode))
             });
@@ -232,6 +235,55 @@ impl LookArguments {
             stereo.convergence = self.convergence.or(stereo.convergence);
         }
         view
+    }
+
+    /// Makes sure that what is given has a meaning for a source, as far as that can be said before it is loaded.
+    pub fn check(&self, source: &Source) -> Result<(), Failure> {
+        let is_scene = matches!(source, Source::Scene(_));
+        if is_scene && self.up.is_some() {
+            return Err(Failure::usage(
+                "A scene file says itself which axis points up: leave --up out, and say up = \"y\" or up = \"z\" in the \
+                 scene file.",
+            ));
+        }
+        match self.stereo {
+            None if is_scene => Ok(()),
+            stereo => self.check_eyes(stereo.is_some_and(|stereo| stereo.0.is_some())),
+        }
+    }
+
+    /// Makes sure that only a picture for two eyes is told how far they are apart.
+    pub fn check_eyes(&self, is_stereo: bool) -> Result<(), Failure> {
+        if !is_stereo && (self.eye_distance.is_some() || self.convergence.is_some()) {
+            return Err(Failure::usage(
+                "Only pictures for two eyes have an eye distance and a convergence: leave --eye-distance and \
+                 --convergence out, or say what kind of picture is wanted, for example --stereo anaglyph.",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// A kind of picture for two eyes, or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StereoArgument(pub Option<StereoMode>);
+
+impl ValueEnum for StereoArgument {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[
+            StereoArgument(None),
+            StereoArgument(Some(StereoMode::SideBySide)),
+            StereoArgument(Some(StereoMode::Rows)),
+            StereoArgument(Some(StereoMode::Sequential)),
+            StereoArgument(Some(StereoMode::Anaglyph)),
+        ]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        match self.0 {
+            None => Some(PossibleValue::new("none").help("A picture for one eye")),
+            Some(mode) => mode.to_possible_value(),
+        }
     }
 }
 

@@ -22,10 +22,8 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
             counted(model.lights.len(), "light"),
             counted(model.textures.len(), "texture"),
         ];
-        Scene::of_model(model, &OctreeOptions::default(), &progress).map_err(|error| SceneFileError::Build {
-            path: path.clone(),
-            error,
-        })?;
+        Scene::of_model(model, &OctreeOptions::default(), &progress)
+            .map_err(|error| SceneFileError::of_build(path, error))?;
         drop(bar);
         super::print(&format!("{}: {}: ok\n", path.display(), counts.join(", ")))?;
     }

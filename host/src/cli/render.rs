@@ -1,7 +1,9 @@
 //! `oktant render`.
 
 use super::Failure;
-use super::arguments::{EngineArguments, FileArguments, LookArguments, MeshArguments, RenderArguments, Size};
+use super::arguments::{
+    EngineArguments, FileArguments, LookArguments, MeshArguments, RenderArguments, Size, StereoArgument,
+};
 use super::engine::Engine;
 use super::progress_bar::ProgressBar;
 use oktant::effort::Effort;
@@ -32,15 +34,17 @@ pub fn render(
     engine: &EngineArguments,
     repeat: u32,
 ) -> Result<(), Failure> {
+    look.check(&mesh.source())?;
     let format = format(files, look)?;
     let aovs = files.aov.0.as_slice();
     let create = |is_pair| RenderingFiles::create(&files.output, format, aovs, is_pair);
     // First of all, so that nobody waits for a picture that cannot be stored.
-    let mut output = create(look.stereo == Some(StereoMode::Sequential))?;
+    let mut output = create(look.stereo == Some(StereoArgument(Some(StereoMode::Sequential))))?;
     let loaded = mesh.load()?;
     let triangles = loaded.triangles;
     let size = size.or(loaded.size.map(Size::from)).unwrap_or_default();
     let view = look.applied(loaded.view);
+    look.check_eyes(view.stereo.is_some())?;
     output = for_view(output, &view, create)?;
     check_halves(&view, size)?;
     let scene = Arc::new(loaded.scene);
@@ -138,15 +142,24 @@ fn pictures(written: &[Written]) -> String {
 /// The rays that were traced, and a bound of what is missing for those that were not.
 fn told(effort: &Effort, seconds: f64) -> String {
     format!(
-        "{:.2} million rays ({:.2} for closest hits, {:.2} for shadows), {:.2} million a second; rays that were cut off \
-         would add at most {} of the brightest light to a pixel, {} in the mean",
-        effort.rays() / 1e6,
-        effort.closest / 1e6,
-        effort.shadow / 1e6,
-        effort.rays() / 1e6 / seconds,
+        "{} rays ({} for closest hits, {} for shadows), {} a second; rays that were cut off would add at most {} of the \
+         brightest light to a pixel, {} in the mean",
+        many(effort.rays()),
+        many(effort.closest),
+        many(effort.shadow),
+        many(effort.rays() / seconds),
         percent(effort.greatest_cut),
         percent(effort.mean_cut),
     )
+}
+
+/// A number of things, in millions where there are as many.
+fn many(count: f64) -> String {
+    if count < 1e6 {
+        format!("{count:.0}")
+    } else {
+        format!("{:.2} million", count / 1e6)
+    }
 }
 
 /// A part of one, rounded up, so that a bound stays one.
@@ -172,6 +185,13 @@ mod tests {
     }
 
     #[test]
+    fn a_few_are_no_millions() {
+        assert_eq!(many(0.0), "0");
+        assert_eq!(many(4_096.0), "4096");
+        assert_eq!(many(1_250_000.0), "1.25 million");
+    }
+
+    #[test]
     fn what_was_cut_is_told() {
         let effort = Effort {
             closest: 3e6,
@@ -181,8 +201,8 @@ mod tests {
         };
         assert_eq!(
             told(&effort, 0.5),
-            "4.50 million rays (3.00 for closest hits, 1.50 for shadows), 9.00 million a second; rays that were cut off \
-             would add at most 0.31 % of the brightest light to a pixel, 0.01 % in the mean"
+            "4.50 million rays (3.00 million for closest hits, 1.50 million for shadows), 9.00 million a second; rays \
+             that were cut off would add at most 0.31 % of the brightest light to a pixel, 0.01 % in the mean"
         );
     }
 }

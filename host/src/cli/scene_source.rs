@@ -5,6 +5,7 @@ use super::arguments::MeshArguments;
 use super::progress_bar::ProgressBar;
 use glam::DVec3;
 use oktant::scene::Scene;
+use oktant::scene_file::SceneFileError;
 use oktant::source::Source;
 use oktant::view::View;
 use std::time::{Duration, Instant};
@@ -32,7 +33,8 @@ impl MeshArguments {
     pub fn load(&self) -> Result<Loaded, Failure> {
         let bar = ProgressBar::new();
         let start = Instant::now();
-        let setting = self.source().load(&|stage, fraction| bar.show(stage, fraction))?;
+        let source = self.source();
+        let setting = source.load(&|stage, fraction| bar.show(stage, fraction))?;
         let reading = start.elapsed();
         let start = Instant::now();
         let mesh = &setting.model.mesh;
@@ -40,6 +42,10 @@ impl MeshArguments {
         let (has_colors, shift) = (!mesh.colors.is_empty(), mesh.shift);
         let scene = Scene::of_model(setting.model, &self.octree.0, &|stage, fraction| {
             bar.show(stage, fraction)
+        })
+        .map_err(|error| match source {
+            Source::Mesh(_) => Failure::from(error),
+            Source::Scene(path) => SceneFileError::of_build(&path, error).into(),
         })?;
         Ok(Loaded {
             scene,

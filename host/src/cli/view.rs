@@ -10,6 +10,7 @@ use std::path::PathBuf;
 const PICTURE: &str = "oktant.png";
 
 pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
+    arguments.look.check(&arguments.mesh.source())?;
     let look = arguments.look.clone();
     let options = ViewerOptions {
         source: arguments.mesh.source(),

@@ -10,7 +10,7 @@ use crate::mesh_source::MeshSource;
 use crate::model::{AMBIENT, Focus, Model, needs_coordinates};
 use crate::progress::Progress;
 use crate::source::Setting;
-use crate::transform::Transform;
+use crate::transform::{Misplaced, Transform};
 use crate::view::View;
 use glam::{DMat3, DVec3, Vec2, Vec3};
 use oktant_shared::orbit::Up;
@@ -86,6 +86,7 @@ pub fn assemble(description: &Description, folder: &Path, progress: Progress<'_>
     let focus = description.camera.apply(&mut view, whole)?;
     description.render.apply(&mut view)?;
     view.stereo = description.stereo.as_ref().map(|stereo| stereo.build());
+    description.render.check_halves(&view)?;
     let lights = super::light::build_all(description.light.as_deref(), &mut view, focus.unwrap_or(whole))?;
     let materials = assembly.palette.into_used();
     let mut files = assembly.files;
@@ -172,9 +173,16 @@ impl Assembly<'_> {
             let name = self.palette.name(*id).to_string();
             return Err(Fault::new(place, Reason::NoCoordinates(name)));
         }
-        let mesh = transform
-            .apply(mesh)
-            .ok_or_else(|| Fault::new(place, Reason::TooLarge))?;
+        let mesh = transform.apply(mesh).map_err(|misplaced| {
+            let reason = match misplaced {
+                Misplaced::TooLarge => Reason::TooLarge,
+                Misplaced::TooFar { center, extent } if place.is_below("mesh") => {
+                    Reason::MeshTooFar(rounded(transform.translation - center, extent))
+                }
+                Misplaced::TooFar { center, extent } => Reason::ShapeTooFar(rounded(-center, extent)),
+            };
+            Fault::new(place, reason)
+        })?;
         self.material_ids.extend_from_slice(materials);
         join(&mut self.mesh, mesh);
         if self.mesh.positions.len().max(self.mesh.triangles.len()) > MOST {
@@ -182,6 +190,18 @@ impl Assembly<'_> {
         }
         Ok(())
     }
+}
+
+/// A vector as a scene file has it, rounded to about a hundredth of the extent of what it moves.
+fn rounded(vector: DVec3, extent: f64) -> String {
+    let decimals = (2.0 - extent.log10().floor()).clamp(0.0, 12.0) as usize;
+    let step = 10_f64.powi(-(decimals as i32));
+    let coordinates = vector.to_array().map(|value| {
+        // Zero has no sign.
+        let value = if value.abs() < step / 2.0 { 0.0 } else { value };
+        format!("{value:.decimals$}")
+    });
+    format!("[{}]", coordinates.join(", "))
 }
 
 /// Adds a mesh with normals to another one. Where only one of them has colours or texture coordinates, the vertices of

@@ -45,7 +45,16 @@ impl<'de> Deserializer<'de> for ValueDeserializer<'de> {
             DeValue::Float(float) => visitor.visit_f64(float.as_str().parse().unwrap_or(f64::NAN)),
             DeValue::Boolean(value) => visitor.visit_bool(*value),
             DeValue::Datetime(_) => Err(Fault::invalid_type(Unexpected::Other("datetime"), &visitor)),
-            DeValue::Array(array) => visitor.visit_seq(Elements { rest: array, next: 0 }),
+            DeValue::Array(array) => {
+                let mut elements = Elements { rest: array, next: 0 };
+                let value = visitor.visit_seq(&mut elements)?;
+                // Arrays of a fixed length take their elements and leave the rest.
+                if elements.rest.is_empty() {
+                    Ok(value)
+                } else {
+                    Err(Fault::unexpected(format!("an array of length {}", elements.next)))
+                }
+            }
             DeValue::Table(table) => {
                 // In the order of the file, so that its first fault is told first.
                 let mut entries: Vec<_> = table.iter().collect();

@@ -5,8 +5,16 @@ use crate::nearest::nearest;
 use crate::ply::PlyError;
 use image::ImageError;
 use serde::de::{Error, Expected, Unexpected};
+use std::borrow::Cow;
 use std::fmt::{self, Display};
 use std::path::PathBuf;
+
+/// At most so many names that somebody gave are listed.
+const MOST_NAMES: usize = 12;
+/// Characters of a name that are shown.
+const LONGEST_NAME: usize = 40;
+/// The fields at the top of a scene file that are no tables.
+const TOP_FIELDS: [&str; 2] = ["up", "ambient"];
 
 /// Something wrong at a place of a scene file.
 #[derive(Debug)]
@@ -29,7 +37,7 @@ pub enum Reason {
         expected: String,
     },
     /// A field that there is not.
-    #[error("has no field \"{name}\"; {}", advice(name, valid))]
+    #[error("has no field \"{}\"; {}", shortened(name), advice(name, valid, valid.len()))]
     UnknownField {
         /// As written.
         name: String,
@@ -37,7 +45,11 @@ pub enum Reason {
         valid: Vec<String>,
     },
     /// A name of nothing.
-    #[error("is \"{name}\", but there is no such {what}; {}", advice(name, valid))]
+    #[error(
+        "is \"{}\", but there is no such {what}; {}",
+        shortened(name),
+        advice(name, valid, MOST_NAMES)
+    )]
     UnknownName {
         /// As written.
         name: String,
@@ -84,6 +96,9 @@ pub enum Reason {
     /// A picture that does not fit into memory.
     #[error("makes a picture of more than {0} pixels; make it smaller")]
     TooManyPixels(u64),
+    /// A picture that cannot be cut into halves.
+    #[error("is {0}, but pictures side by side are equally wide; give an even number")]
+    OddWidth(u32),
     /// Nothing to see.
     #[error("has nothing to see; add a [[mesh]], [[sphere]], [[box]] or another shape")]
     Empty,
@@ -93,6 +108,15 @@ pub enum Reason {
     /// Coordinates that lead to overflow.
     #[error("reaches further than 1e15 from the origin; bring it nearer or make it smaller")]
     TooLarge,
+    /// A mesh that f32 cannot hold where it lies.
+    #[error(
+        "lies too far from the origin for single precision; bring it nearer with translate = {0}, and all that belongs \
+         to it by as much"
+    )]
+    MeshTooFar(String),
+    /// A shape that f32 cannot hold where it lies.
+    #[error("lies too far from the origin for single precision; move it and all that belongs to it by {0}")]
+    ShapeTooFar(String),
     /// More than ids can count.
     #[error("makes more than {0} triangles or vertices in all; leave something out")]
     TooMany(usize),
@@ -118,6 +142,17 @@ pub enum Reason {
         /// What the system says.
         reason: std::io::Error,
     },
+    /// An image without pixels.
+    #[error("cannot be used: {} has no pixels; give another image", .0.display())]
+    EmptyImage(PathBuf),
+    /// An image that is too wide or too high.
+    #[error("cannot be used: {} is too large; give an image of at most {most} pixels a side", path.display())]
+    LongImage {
+        /// The image.
+        path: PathBuf,
+        /// Pixels that a side may have.
+        most: u32,
+    },
     /// Images larger than a GPU takes.
     #[error("has too many pixels: all images together may have {0}; make it smaller")]
     TooManyTexels(usize),
@@ -126,14 +161,26 @@ pub enum Reason {
     Other(String),
 }
 
-/// What to do about a name that there is not.
-fn advice(name: &str, valid: &[String]) -> String {
+/// What to do about a name that there is not; lists at most so many that there are.
+fn advice(name: &str, valid: &[String], most: usize) -> String {
     let valid: Vec<_> = valid.iter().map(String::as_str).collect();
-    match (nearest(name, &valid), valid.as_slice()) {
-        (Some(near), _) => format!("did you mean \"{near}\"?"),
-        (None, []) => "there are none".into(),
-        (None, [only]) => format!("there is only \"{only}\""),
-        (None, [first @ .., last]) => format!("there are {} and {last}", first.join(", ")),
+    if let Some(near) = nearest(name, &valid) {
+        return format!("did you mean \"{}\"?", shortened(near));
+    }
+    let shown: Vec<_> = valid.iter().take(most).map(|name| shortened(name)).collect();
+    match (shown.as_slice(), valid.len() - shown.len()) {
+        ([], _) => "there are none".into(),
+        ([only], _) => format!("there is only \"{only}\""),
+        ([first @ .., last], 0) => format!("there are {} and {last}", first.join(", ")),
+        (first, rest) => format!("there are {} and {rest} more", first.join(", ")),
+    }
+}
+
+/// A name of which no more is shown than helps.
+fn shortened(name: &str) -> Cow<'_, str> {
+    match name.char_indices().nth(LONGEST_NAME) {
+        Some((end, _)) => format!("{}...", &name[..end]).into(),
+        None => name.into(),
     }
 }
 
@@ -166,7 +213,19 @@ impl Fault {
 
 impl Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.place, self.reason)
+        match &self.reason {
+            // What is appended to a file becomes part of its last table.
+            Reason::UnknownField { name, .. }
+                if !self.place.steps().is_empty() && TOP_FIELDS.contains(&name.as_str()) =>
+            {
+                write!(
+                    f,
+                    "{} has no field \"{name}\"; it belongs at the top, before the first [table]",
+                    self.place
+                )
+            }
+            reason => write!(f, "{} {reason}", self.place),
+        }
     }
 }
 

@@ -34,6 +34,11 @@ impl Place {
         self.with(Step::Index(index))
     }
 
+    /// Whether the topmost step is to this key.
+    pub fn is_below(&self, key: &str) -> bool {
+        matches!(self.0.first(), Some(Step::Key(first)) if first == key)
+    }
+
     fn with(&self, step: Step) -> Self {
         let mut place = self.clone();
         place.0.push(step);

@@ -5,6 +5,7 @@ use super::number::{Depth, Part, Pixels, Stops};
 use super::place::Place;
 use crate::picture::{DEFAULT_SIZE, LARGEST_PICTURE, LARGEST_SIDE};
 use crate::sampling::{Filter, Pattern, Samples};
+use crate::stereo::StereoMode;
 use crate::tone::Curve;
 use crate::view::{Shading, View};
 use serde::de::{Error, Unexpected, Visitor};
@@ -74,6 +75,17 @@ impl Render {
         set(&mut view.tone.exposure, self.exposure.map(|exposure| exposure.0));
         set(&mut view.tone.curve, self.tone);
         Ok(())
+    }
+
+    /// Makes sure that a picture for two eyes beside each other has a middle.
+    pub fn check_halves(&self, view: &View) -> Result<(), Fault> {
+        let is_halved = view.stereo.is_some_and(|stereo| stereo.mode == StereoMode::SideBySide);
+        match &self.width {
+            Some(Pixels(width)) if is_halved && width % 2 == 1 => {
+                Err(Fault::new(&Place::of("render").key("width"), Reason::OddWidth(*width)))
+            }
+            _ => Ok(()),
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::fault::Reason;
 use glam::Vec3;
+use image::error::LimitErrorKind;
 use image::{DynamicImage, ImageError, ImageReader, Limits};
 use oktant_shared::texture::{HEIGHT_IMAGE, SHARED_EXPONENT_IMAGE, SRGB_IMAGE, Texture, shared_exponent};
 use rayon::prelude::*;
@@ -36,9 +37,15 @@ pub fn read(path: &Path) -> Result<DynamicImage, Reason> {
     if file.metadata().map_err(unreadable)?.is_dir() {
         return Err(unreadable(ErrorKind::IsADirectory.into()));
     }
-    let broken = |reason: ImageError| Reason::Image {
-        path: path.to_path_buf(),
-        reason,
+    let broken = |reason: ImageError| match reason {
+        ImageError::Limits(limit) if limit.kind() == LimitErrorKind::DimensionError => Reason::LongImage {
+            path: path.to_path_buf(),
+            most: LONGEST_SIDE,
+        },
+        reason => Reason::Image {
+            path: path.to_path_buf(),
+            reason,
+        },
     };
     let mut reader = ImageReader::new(BufReader::new(file))
         .with_guessed_format()
@@ -48,7 +55,11 @@ pub fn read(path: &Path) -> Result<DynamicImage, Reason> {
     limits.max_image_height = Some(LONGEST_SIDE);
     limits.max_alloc = Some(MOST_BYTES);
     reader.limits(limits);
-    reader.decode().map_err(broken)
+    let image = reader.decode().map_err(broken)?;
+    if image.width() == 0 || image.height() == 0 {
+        return Err(Reason::EmptyImage(path.to_path_buf()));
+    }
+    Ok(image)
 }
 
 /// Adds the colours of an image, the upper left one first: with a common exponent where its channels are floating point
