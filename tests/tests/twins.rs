@@ -11,6 +11,7 @@ use oktant::backend::{Backend, BackendError};
 use oktant::balls::balls;
 use oktant::mesh::Mesh;
 use oktant::mesh_source::MeshSource;
+use oktant::model::Model;
 use oktant::octree::OctreeOptions;
 use oktant::progress::silent;
 use oktant::sampling::Samples;
@@ -21,6 +22,7 @@ use oktant_shared::arithmetic::{difference_of_products, fused_multiply_add, min,
 use oktant_shared::box_test::{BoxTest, KayKajiya, Williams};
 use oktant_shared::color::{linear_color, srgb_from_linear};
 use oktant_shared::hit::Hit;
+use oktant_shared::plane::Plane;
 use oktant_shared::ray::{PreparedRay, Ray};
 use oktant_shared::secondary_origin::secondary_origin;
 use oktant_shared::triangle::Triangle;
@@ -130,6 +132,29 @@ fn every_pixel_is_written_at_any_size() {
             }
         }
     }
+}
+
+/// More pixels with trees of rays than one dispatch takes: the picture is rendered in bands, each sample by itself.
+#[test]
+#[ignore = "needs a Vulkan driver"]
+fn pictures_in_bands_have_no_seams() {
+    let mut model = Model::of_mesh(balls());
+    model.planes.push(Plane::new(Vec3::ZERO, Vec3::Y, 0));
+    let scene = Arc::new(Scene::of_model(model, &OctreeOptions::default(), &silent).unwrap());
+    let view = View {
+        samples: Samples::Four,
+        ..View::default()
+    };
+    let frame = view.frame(&scene, 1501, 1503);
+    let cpu = Cpu::new(scene.clone()).render(&frame, &silent).unwrap();
+    let gpu = GpuBackend::new(open(ModulePath::Auto), &scene)
+        .unwrap()
+        .render(&frame, &silent)
+        .unwrap();
+    assert!(gpu.sums.iter().all(|sum| sum.w == 4.0), "no pixel twice");
+    let colors = ColorDifferences::new(&cpu, &gpu);
+    println!("bands: {colors}");
+    assert!(colors.agree());
 }
 
 #[test]
