@@ -108,6 +108,9 @@ impl Transform {
             .reduce(nothing, |a, b| (a.0.min(b.0), a.1.max(b.1)));
         let extent = (high - low).max_element();
         let farthest = low.abs().max(high.abs()).max_element();
+        if extent >= 0.0 && farthest > f64::from(FARTHEST) {
+            return Err(Misplaced::TooLarge);
+        }
         if extent > 0.0 && extent < farthest * f64::from(f32::EPSILON) * LEAST_STEPS {
             let center = low.midpoint(high);
             return Err(Misplaced::TooFar { center, extent });
