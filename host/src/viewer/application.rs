@@ -14,7 +14,7 @@ use super::schedule::Schedule;
 use super::screen::Screen;
 use super::session::{Effect, Session};
 use super::showing::Part;
-use super::state::{GpuState, Message, Work};
+use super::state::{GpuState, Message, SaveProgress, Work};
 use super::task::{Destination, Task};
 use super::translation::Translation;
 use super::watcher::Watcher;
@@ -45,10 +45,12 @@ pub struct Application {
     pub(super) translation: Translation,
     pub(super) schedule: Schedule,
     pub(super) renderer: Renderer,
-    /// What the renderer does.
+    /// What the renderer shows.
     pub(super) work: Work,
     /// Pictures to save, first come first served.
-    pub(super) saves: VecDeque<Task>,
+    pub(super) saves: VecDeque<(Destination, Task)>,
+    /// The one that is being saved.
+    pub(super) saving: Option<SaveProgress>,
     /// How fast the CPU renders the scene, and the GPU.
     pub(super) paces: [Paces; 2],
     /// How the last picture was simplified that was begun.
@@ -107,6 +109,7 @@ impl Application {
             renderer: Renderer::start(mailbox.clone()),
             work: Work::Idle,
             saves: VecDeque::new(),
+            saving: None,
             paces: [Paces::guessed(true); 2],
             last_draft: Draft::FINE,
             figures: Figures::default(),
@@ -213,8 +216,8 @@ impl Application {
 
     fn save(&mut self, path: Option<PathBuf>) {
         let destination = path.map_or_else(|| Destination::Folder(self.options.pictures.clone()), Destination::File);
-        match self.save_task(destination) {
-            Some(task) => self.saves.push_back(task),
+        match self.save_task(destination.clone()) {
+            Some(task) => self.saves.push_back((destination, task)),
             None => self.tell(
                 "There is no picture to save yet; wait until the scene is shown.".into(),
                 true,

@@ -53,8 +53,8 @@ pub struct Caption {
     pub stereo: Option<(StereoMode, f32)>,
     /// What renders.
     pub backend: String,
-    /// What is being loaded, and how far it is.
-    pub loading: Option<String>,
+    /// What is being loaded and what is being saved, and how far it is.
+    pub under_way: Vec<String>,
 }
 
 /// The panel of figures.
@@ -108,7 +108,7 @@ pub fn figures(caption: &Caption) -> Vec<Line> {
         plain(joined(&mesh)),
     ];
     lines.extend(Some(joined(&screen)).filter(|line| !line.is_empty()).map(plain));
-    lines.extend(caption.loading.clone().map(strong));
+    lines.extend(caption.under_way.iter().cloned().map(strong));
     lines
 }
 
@@ -249,7 +249,7 @@ mod tests {
             tone: tone::Tone::default(),
             stereo: None,
             backend: "CPU, 2 threads".into(),
-            loading: None,
+            under_way: Vec::new(),
         };
         let text = |caption: &Caption| figures(caption).into_iter().map(|line| line.text).collect::<Vec<_>>();
         assert_eq!(
@@ -261,7 +261,7 @@ mod tests {
             ]
         );
         let waiting = Caption {
-            loading: Some("reading a.ply 40 %".into()),
+            under_way: vec!["reading a.ply: 40 %".into(), "saving b.png: 5 %".into()],
             samples: [16, 7],
             tone: tone::Tone {
                 exposure: -1.0 / 3.0,
@@ -276,7 +276,8 @@ mod tests {
                 "idle",
                 "0 \u{d7} 0   7 of 16 samples   flat   depth 0",
                 "tone aces   -0.3 stops   side-by-side, eyes 0.0933 apart",
-                "reading a.ply 40 %"
+                "reading a.ply: 40 %",
+                "saving b.png: 5 %",
             ]
         );
     }

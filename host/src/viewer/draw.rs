@@ -85,8 +85,9 @@ impl Application {
         let mut panels = Vec::new();
         if self.session.figures {
             panels.push(caption::figures(&self.caption(now)));
-        } else if let Some(loading) = self.loading_text() {
-            panels.push(caption::message(&loading, false, usize::MAX));
+        } else {
+            let under_way = self.under_way();
+            panels.extend(under_way.iter().map(|text| caption::message(text, false, usize::MAX)));
         }
         if self.session.help {
             panels.push(caption::help());
@@ -126,7 +127,7 @@ impl Application {
                 .stereo
                 .map(|stereo| (stereo.mode, self.session.eye_distance())),
             backend: self.backend_name(),
-            loading: self.loading_text(),
+            under_way: self.under_way(),
         }
     }
 
@@ -144,6 +145,15 @@ impl Application {
         let loading = self.loads.loading()?;
         let percent = (loading.fraction * 100.0).round();
         Some(format!("{} {}: {percent} %", loading.stage, loading.source))
+    }
+
+    /// What is done at this moment, and how far it is.
+    fn under_way(&self) -> Vec<String> {
+        let saving = self.saving.as_ref().map(|saving| {
+            let percent = (saving.fraction * 100.0).round();
+            format!("saving {}: {percent} %", saving.path.display())
+        });
+        self.loading_text().into_iter().chain(saving).collect()
     }
 
     fn title(&self) -> String {

@@ -120,6 +120,7 @@ impl ApplicationHandler<Notice> for Application {
 
     fn exiting(&mut self, _: &ActiveEventLoop) {
         self.renderer.cancel();
+        self.abandon_saves();
         // The screen goes before the window, and both before the event loop.
         self.image = None;
         self.screen = None;

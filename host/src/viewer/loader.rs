@@ -3,6 +3,7 @@
 use super::accident::caught;
 use super::mentioned::mentioned;
 use super::notice::{LoadError, Mailbox, Notice};
+use super::throttle::Throttle;
 use super::watcher::Stamps;
 use crate::model::Focus;
 use crate::octree::OctreeOptions;
@@ -10,12 +11,9 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::source::Source;
 use crate::view::View;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 use std::thread;
-use std::time::{Duration, Instant, SystemTime};
-
-/// Progress is not told more often than this.
-const INTERVAL: Duration = Duration::from_millis(50);
+use std::time::SystemTime;
 
 /// A scene that was loaded, and what came with it.
 #[derive(Debug)]
@@ -46,11 +44,9 @@ pub struct Refusal {
 pub fn load(load: u64, source: Source, octree: OctreeOptions, mailbox: &Mailbox) {
     let mailbox = mailbox.clone();
     thread::spawn(move || {
-        let last = Mutex::new(Instant::now());
+        let throttle = Throttle::new();
         let progress = |stage, fraction| {
-            let mut last = last.lock().unwrap_or_else(PoisonError::into_inner);
-            if last.elapsed() >= INTERVAL {
-                *last = Instant::now();
+            if throttle.is_due() {
                 mailbox.send(Notice::Loading { load, stage, fraction });
             }
         };

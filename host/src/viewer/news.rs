@@ -5,7 +5,7 @@ use super::notice::{Notice, RenderError, Rendered};
 use super::schedule::Quality;
 use super::screen::Screen;
 use super::showing::Part;
-use super::state::{GpuState, Work};
+use super::state::{GpuState, SaveProgress, Work};
 use std::time::Instant;
 
 impl Application {
@@ -62,7 +62,12 @@ impl Application {
                     self.gpu_failed(error.and_the_cpu_renders(), now);
                 }
             }
+            Notice::Saving { path, fraction } => {
+                self.saving = Some(SaveProgress { path, fraction });
+                self.redraw();
+            }
             Notice::Saved(result) => {
+                self.saving = None;
                 self.last_save = Some(match &result {
                     Ok(path) => Ok(path.clone()),
                     Err(error) => Err(error.to_string()),

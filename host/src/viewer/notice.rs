@@ -46,8 +46,15 @@ pub enum Notice {
         /// Time of the pass.
         milliseconds: f64,
     },
-    /// The task is over, because it is done or was cancelled, or because the back end failed.
+    /// What was to be shown is over, because it is done or was cancelled, or because the back end failed.
     Finished(Result<(), RenderError>),
+    /// How far a picture is that is to be written.
+    Saving {
+        /// The file.
+        path: PathBuf,
+        /// 0 to 1.
+        fraction: f32,
+    },
     /// A picture was written, or could not be.
     Saved(Result<PathBuf, SaveError>),
 }

@@ -20,6 +20,16 @@ pub fn passes(frame: &Frame) -> impl Iterator<Item = Frame> + use<> {
     })
 }
 
+/// One pass for each sample, in their own order: summed up they are, to the last bit, what one pass for all makes.
+pub fn ordered_passes(frame: &Frame) -> impl Iterator<Item = Frame> + use<> {
+    let frame = *frame;
+    (0..frame.sample_count).map(move |first_sample| Frame {
+        first_sample,
+        sample_count: 1,
+        ..frame
+    })
+}
+
 /// The number of the sample that comes in place `i` of 1, 4, 16 or 64: samples of the first half far from each other,
 /// each followed by the one that lies opposite.
 fn scattered(i: u32, count: u32) -> u32 {

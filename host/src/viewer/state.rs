@@ -3,10 +3,11 @@
 use super::draft::Draft;
 use crate::backend::gpu::Gpu;
 use crate::source::Source;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What the renderer does.
+/// What the renderer shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Work {
     /// Nothing.
@@ -18,8 +19,15 @@ pub enum Work {
         /// Whether the GPU renders it.
         on_gpu: bool,
     },
-    /// A picture for a file.
-    Save,
+}
+
+/// A picture on its way into a file.
+#[derive(Clone, Debug)]
+pub struct SaveProgress {
+    /// The file, or the folder as long as it has no name.
+    pub path: PathBuf,
+    /// How far it is, 0 to 1.
+    pub fraction: f32,
 }
 
 /// A scene on its way.

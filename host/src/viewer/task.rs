@@ -6,7 +6,8 @@ use crate::sampling::Samples;
 use crate::scene::Scene;
 use crate::view::View;
 use oktant_shared::frame::Frame;
-use std::path::PathBuf;
+use std::fmt;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What renders.
@@ -66,6 +67,23 @@ pub enum Destination {
     File(PathBuf),
     /// Into this folder, under the next free name.
     Folder(PathBuf),
+}
+
+impl Destination {
+    /// The file or the folder.
+    pub fn path(&self) -> &Path {
+        let (Destination::File(path) | Destination::Folder(path)) = self;
+        path
+    }
+}
+
+impl fmt::Display for Destination {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Destination::File(path) => write!(f, "{}", path.display()),
+            Destination::Folder(path) => write!(f, "a picture in {}", path.display()),
+        }
+    }
 }
 
 /// Which pictures a task to show something makes, and whether each is what is wanted in the end.

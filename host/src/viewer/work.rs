@@ -3,7 +3,7 @@
 use super::application::Application;
 use super::draft::Draft;
 use super::schedule::{Decision, Quality};
-use super::state::{GpuState, Work};
+use super::state::{GpuState, SaveProgress, Work};
 use super::task::{Destination, Effort, Engine, Purpose, Task};
 use crate::stereo::StereoMode;
 use std::time::Instant;
@@ -11,15 +11,15 @@ use std::time::Instant;
 impl Application {
     /// Gives the renderer what is due; says when there will be something else.
     pub(super) fn work(&mut self, now: Instant) -> Option<Instant> {
-        if self.work == Work::Save {
-            return None;
-        }
-        if self.work == Work::Idle
-            && let Some(task) = self.saves.pop_front()
+        if self.saving.is_none()
+            && let Some((destination, task)) = self.saves.pop_front()
         {
-            self.work = Work::Save;
-            self.renderer.render(task);
-            return None;
+            self.saving = Some(SaveProgress {
+                path: destination.path().to_path_buf(),
+                fraction: 0.0,
+            });
+            self.renderer.save(task);
+            self.redraw();
         }
         if !self.session.is_visible() {
             return None;
@@ -50,7 +50,7 @@ impl Application {
                 self.last_draft = draft;
                 let number = self.schedule.started(quality);
                 self.work = Work::Show { draft, on_gpu };
-                self.renderer.render(Task {
+                self.renderer.show(Task {
                     engine,
                     scene,
                     view,
@@ -89,12 +89,30 @@ impl Application {
         }
     }
 
+    /// Gives up what is not saved yet, and says so: the window closes.
+    pub(super) fn abandon_saves(&mut self) {
+        // Nobody waits for a picture that was only to be shown.
+        let mut unsaved = match self.saving {
+            Some(_) => self.renderer.close(),
+            None => Vec::new(),
+        };
+        unsaved.extend(self.saves.drain(..).map(|(destination, _)| destination));
+        if !unsaved.is_empty() {
+            let names: Vec<String> = unsaved.iter().map(ToString::to_string).collect();
+            eprintln!(
+                "Not saved, because the window was closed: {}; next time, wait until it says where the picture is.",
+                names.join(", ")
+            );
+        }
+    }
+
     /// Whether everything that was asked for is done and shown.
     pub(super) fn is_settled(&self) -> bool {
         self.schedule.is_settled()
             && self.is_shown
             && self.loads.loading().is_none()
             && self.work == Work::Idle
+            && self.saving.is_none()
             && self.saves.is_empty()
             && !matches!(self.gpu, GpuState::Opening { .. })
     }

@@ -273,3 +273,29 @@ fn a_scene_that_is_saved_is_read_again() {
         &session.await_picture("wanted.png"),
     );
 }
+
+#[test]
+#[ignore = "needs a display"]
+fn a_mesh_that_was_missing_is_noticed() {
+    let session = Session::new();
+    session.write("mesh.ply", &mesh(1));
+    session.write("scene.toml", &scene(""));
+    let mut window = session.start(
+        &["scene.toml", "--backend", "cpu", "--size", SIZE],
+        "wait settled
+        screenshot first.png
+        wait reloaded
+        expect message other.ply
+        screenshot refused.png
+        wait reloaded
+        wait settled
+        expect triangles 2
+        screenshot other.png",
+    );
+    session.await_picture("first.png");
+    session.replace("scene.toml", &scene("").replace("mesh.ply", "other.ply"));
+    session.await_picture("refused.png");
+    session.replace("other.ply", &mesh(2));
+    session.await_picture("other.png");
+    window.finish();
+}

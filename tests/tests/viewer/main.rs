@@ -6,6 +6,7 @@
 
 mod files;
 mod look;
+mod saves;
 mod start;
 mod window;
 

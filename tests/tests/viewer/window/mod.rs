@@ -52,6 +52,20 @@ impl Session {
         std::fs::rename(file("new"), file(name)).expect("files can be renamed");
     }
 
+    /// Names of all files there.
+    pub fn files(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.folder.path()).expect("the folder can be read");
+        entries
+            .map(|entry| {
+                entry
+                    .expect("it can be read to its end")
+                    .file_name()
+                    .to_string_lossy()
+                    .into()
+            })
+            .collect()
+    }
+
     /// The program with arguments, in the folder.
     pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(oktant());
