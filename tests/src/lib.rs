@@ -3,6 +3,7 @@
 pub mod compare;
 pub mod data;
 pub mod exact;
+pub mod images;
 pub mod meshes;
 pub mod program;
 pub mod ray_classes;

@@ -1,7 +1,8 @@
 #![cfg(test)]
 //! The commands of `docs/gallery.md` run, and make the pictures that it shows.
 
-use oktant_tests::program::run;
+use oktant_tests::images::{CPU, difference};
+use oktant_tests::program::{Run, run};
 use std::path::{Path, PathBuf};
 
 fn docs() -> PathBuf {
@@ -27,6 +28,53 @@ fn pictures(text: &str) -> Vec<&str> {
         .collect()
 }
 
+/// Runs a command of the page in a folder, on the CPU, with the scenes of the project; the picture may be of another size.
+fn run_on_cpu(folder: &Path, command: &[&str], size: Option<&str>) -> Run {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().unwrap();
+    let mut arguments: Vec<String> = command.iter().map(ToString::to_string).collect();
+    for i in 1..arguments.len() {
+        match (arguments[i - 1].as_str(), size) {
+            ("--size", Some(size)) => arguments[i] = size.into(),
+            ("render", _) => arguments[i] = root.join(&arguments[i]).display().to_string(),
+            _ => {}
+        }
+    }
+    arguments.extend(["--backend".into(), "cpu".into()]);
+    run(folder, &arguments)
+}
+
+/// Pictures that take a second or two in the size in which they are shown.
+const QUICK: [&str; 8] = [
+    "bunny",
+    "balls",
+    "depth-0",
+    "depth-1",
+    "depth-2",
+    "depth-16",
+    "samples-1",
+    "samples-4",
+];
+
+#[test]
+fn pictures_are_what_their_commands_make() {
+    let text = gallery();
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir_all(folder.path().join("docs/gallery")).unwrap();
+    let mut wrong = Vec::new();
+    for name in QUICK {
+        let picture = format!("docs/gallery/{name}.png");
+        let commands = commands(&text);
+        let command = commands.iter().find(|command| command.contains(&picture.as_str()));
+        let command = command.unwrap_or_else(|| panic!("no command makes {picture}"));
+        let run = run_on_cpu(folder.path(), command, None);
+        assert_eq!(run.code, Some(0), "{}: {}", command.join(" "), run.error);
+        let made = image::open(folder.path().join(&picture)).unwrap().to_rgb8();
+        let shown = docs().join(format!("gallery/{name}.png"));
+        wrong.extend(difference(&shown, &made, &CPU, "gallery"));
+    }
+    assert!(wrong.is_empty(), "run the commands anew: {}", wrong.join("\n"));
+}
+
 #[test]
 fn every_command_makes_its_pictures() {
     let text = gallery();
@@ -34,18 +82,8 @@ fn every_command_makes_its_pictures() {
     assert!(commands.len() >= 20, "the commands are gone");
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir_all(folder.path().join("docs/gallery")).unwrap();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().unwrap();
     for command in commands {
-        let mut arguments: Vec<String> = command.iter().map(ToString::to_string).collect();
-        for i in 1..arguments.len() {
-            match arguments[i - 1].as_str() {
-                "--size" => arguments[i] = "64x48".into(),
-                "render" => arguments[i] = root.join(&arguments[i]).display().to_string(),
-                _ => {}
-            }
-        }
-        arguments.extend(["--backend".into(), "cpu".into()]);
-        let run = run(folder.path(), &arguments);
+        let run = run_on_cpu(folder.path(), &command, Some("64x48"));
         assert_eq!(run.code, Some(0), "{}: {}", command.join(" "), run.error);
     }
     // What the commands made is what the page shows, and what lies there.

@@ -4,7 +4,7 @@
 //! The CPU is the standard: `OKTANT_BLESS=1` lets it write the goldens anew. Where a picture differs too much, expected,
 //! actual and difference are written side by side into `target/goldens`.
 
-use image::{Rgb, RgbImage};
+use image::RgbImage;
 use oktant::backend::Backend;
 use oktant::backend::cpu::Cpu;
 use oktant::backend::gpu::{Gpu, GpuBackend, GpuOptions, ModulePath};
@@ -14,25 +14,13 @@ use oktant::scene::Scene;
 use oktant::source::Source;
 use oktant::view::View;
 use oktant_shared::whitted::MAX_DEPTH;
+use oktant_tests::images::{CPU, Tolerance, compared, difference};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Width and height of the goldens in pixels.
 const SIZE: [u32; 2] = [320, 242];
 
-/// How far a picture may be from its golden.
-struct Tolerance {
-    /// A channel may be off by so many of 255.
-    step: u8,
-    /// Pixels that may be off by more, as a part of all.
-    outliers: f64,
-}
-
-/// Another CPU has another power function, whose last bit may turn a rounding, or a ray at an edge.
-const CPU: Tolerance = Tolerance {
-    step: 1,
-    outliers: 5e-4,
-};
 /// Drivers contract and divide as they like: a ray that passes an edge sees something else, and each reflection makes its
 /// rounding grow.
 const GPU: Tolerance = Tolerance {
@@ -80,53 +68,10 @@ fn golden(path: &Path) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("goldens/{name}.png"))
 }
 
-/// Part of the pixels in which a channel is off by more than a step.
-fn outliers(expected: &RgbImage, actual: &RgbImage, step: u8) -> f64 {
-    assert_eq!(expected.dimensions(), actual.dimensions());
-    let off = |(a, b): (&Rgb<u8>, &Rgb<u8>)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > step);
-    let count = expected.pixels().zip(actual.pixels()).filter(|pair| off(*pair)).count();
-    count as f64 / f64::from(expected.width() * expected.height())
-}
-
-/// Expected, actual and eight times the difference, side by side.
-fn side_by_side(expected: &RgbImage, actual: &RgbImage) -> RgbImage {
-    let (width, height) = expected.dimensions();
-    RgbImage::from_fn(width * 3, height, |x, y| {
-        let (a, b) = (expected.get_pixel(x % width, y), actual.get_pixel(x % width, y));
-        match x / width {
-            0 => *a,
-            1 => *b,
-            _ => Rgb(std::array::from_fn(|i| a.0[i].abs_diff(b.0[i]).saturating_mul(8))),
-        }
-    })
-}
-
 /// Compares a picture with its golden; what is wrong, if anything is.
-fn compare(path: &Path, actual: &RgbImage, tolerance: &Tolerance, who: &str) -> Option<String> {
-    let golden = golden(path);
-    let expected = match image::open(&golden) {
-        Ok(image) => image.to_rgb8(),
-        Err(error) => return Some(format!("{}: {error}; OKTANT_BLESS=1 writes it", golden.display())),
-    };
-    let part = outliers(&expected, actual, tolerance.step);
-    let name = golden.file_stem().unwrap().to_str().unwrap();
-    println!(
-        "{name} on {who}: {:.3} % of the pixels off by more than {}",
-        part * 100.0,
-        tolerance.step
-    );
-    if part <= tolerance.outliers {
-        return None;
-    }
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/goldens");
-    std::fs::create_dir_all(&folder).unwrap();
-    let shown = folder.join(format!("{name}-{who}.png"));
-    side_by_side(&expected, actual).save(&shown).unwrap();
-    Some(format!(
-        "{name} on {who}: {:.3} % of the pixels are off, see {}",
-        part * 100.0,
-        shown.display()
-    ))
+fn golden_differs(path: &Path, actual: &RgbImage, tolerance: &Tolerance, who: &str) -> Option<String> {
+    let wrong = difference(&golden(path), actual, tolerance, who)?;
+    Some(format!("{wrong}; OKTANT_BLESS=1 writes it anew"))
 }
 
 #[test]
@@ -138,7 +83,7 @@ fn the_cpu_renders_the_goldens() {
         if bless {
             actual.save(golden(&path)).unwrap();
         }
-        wrong.extend(compare(&path, &actual, &CPU, "cpu"));
+        wrong.extend(golden_differs(&path, &actual, &CPU, "cpu"));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
@@ -157,7 +102,7 @@ fn the_gpu_renders_the_goldens_from_the_kernel_passed_through() {
         let actual = picture(&path, MAX_DEPTH, |scene| {
             Box::new(GpuBackend::new(gpu.clone(), scene).unwrap())
         });
-        wrong.extend(compare(&path, &actual, &GPU, "gpu"));
+        wrong.extend(golden_differs(&path, &actual, &GPU, "gpu"));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
@@ -166,20 +111,16 @@ fn the_gpu_renders_the_goldens_from_the_kernel_passed_through() {
 #[ignore = "needs a Vulkan driver"]
 fn the_gpu_renders_the_scenes_through_naga() {
     let gpu = gpu(ModulePath::Naga);
+    let mut wrong = Vec::new();
     for path in scenes() {
         let expected = picture(&path, NAGA_DEPTH, |scene| Box::new(Cpu::new(scene.clone())));
         let actual = picture(&path, NAGA_DEPTH, |scene| {
             Box::new(GpuBackend::new(gpu.clone(), scene).unwrap())
         });
-        let part = outliers(&expected, &actual, GPU.step);
-        println!(
-            "{}: {:.3} % of the pixels off by more than {}",
-            path.display(),
-            part * 100.0,
-            GPU.step
-        );
-        assert!(part <= GPU.outliers, "{}", path.display());
+        let name = path.file_stem().unwrap().to_string_lossy();
+        wrong.extend(compared(&name, &expected, &actual, &GPU, "naga"));
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]
@@ -197,18 +138,4 @@ fn no_golden_is_left_over() {
         .map(|path| golden(path).canonicalize().unwrap())
         .collect();
     assert_eq!(goldens, wanted);
-}
-
-#[test]
-fn the_comparison_can_fail() {
-    let expected = RgbImage::from_fn(SIZE[0], SIZE[1], |x, y| Rgb([x as u8, y as u8, 7]));
-    assert_eq!(outliers(&expected, &expected, 0), 0.0);
-    let mut actual = expected.clone();
-    actual.put_pixel(5, 6, Rgb([5, 6, 10]));
-    assert_eq!(outliers(&expected, &actual, 3), 0.0);
-    assert_eq!(outliers(&expected, &actual, 2), 1.0 / f64::from(SIZE[0] * SIZE[1]));
-    let shown = side_by_side(&expected, &actual);
-    assert_eq!(shown.dimensions(), (SIZE[0] * 3, SIZE[1]));
-    assert_eq!(*shown.get_pixel(SIZE[0] * 2 + 5, 6), Rgb([0, 0, 24]));
-    assert_eq!(*shown.get_pixel(SIZE[0] * 2 + 6, 6), Rgb([0, 0, 0]));
 }
