@@ -1,0 +1,174 @@
+//! How the picture looks.
+
+use super::numbers::{cutoff, distance, elevation, exposure, field_of_view, finite, length};
+use crate::cli::Failure;
+use clap::builder::PossibleValue;
+use clap::{Args, ValueEnum};
+use oktant::sampling::{Filter, Pattern, Samples};
+use oktant::source::Source;
+use oktant::stereo::{Stereo, StereoMode};
+use oktant::tone::Curve;
+use oktant::view::{Shading, View};
+use oktant_shared::orbit::Up;
+use oktant_shared::whitted::MAX_DEPTH as MAX_TREE_DEPTH;
+
+/// How the picture looks. What is not given is as the scene says, or as it is for a mesh alone.
+#[derive(Clone, Debug, Default, Args)]
+pub struct LookArguments {
+    /// Samples of a pixel [default: as the scene says, else 1].
+    #[arg(long, value_enum)]
+    pub samples: Option<Samples>,
+    /// Where in a pixel the samples lie [default: as the scene says, else regular].
+    #[arg(long, value_enum)]
+    pub pattern: Option<Pattern>,
+    /// How much each sample counts [default: as the scene says, else box].
+    #[arg(long, value_enum)]
+    pub filter: Option<Filter>,
+    /// Normals: of the triangle (flat), or interpolated between the vertices (phong) [default: as the scene says, else phong].
+    #[arg(long, value_enum)]
+    pub shading: Option<Shading>,
+    /// How many times a ray may be reflected or refracted, 0 to 16 [default: as the scene says, else 5].
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_TREE_DEPTH)))]
+    pub depth: Option<u32>,
+    /// Rays that can change no colour by more than this part of their light are left out [default: as the scene says, else 0.002].
+    #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = cutoff)]
+    pub cutoff: Option<f32>,
+    /// Where the camera stands, degrees: 0 in front (+Z, or -Y with --up z), counterclockwise seen from above
+    /// [default: as the scene says, else 0].
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = finite)]
+    pub azimuth: Option<f32>,
+    /// How high the camera stands, degrees above the horizon, -90 to 90 [default: as the scene says, else 15].
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = elevation)]
+    pub elevation: Option<f32>,
+    /// How far the camera is from what it looks at, in radii of the mesh's bounding sphere; of a scene that has a
+    /// camera, in halves of the height that it sees [default: as the scene says, else 2.8].
+    #[arg(long, value_name = "RADII", allow_negative_numbers = true, value_parser = distance)]
+    pub distance: Option<f32>,
+    /// Vertical field of view, degrees, 1 to 170 [default: as the scene says, else 40].
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = field_of_view)]
+    pub fov: Option<f32>,
+    /// Which axis of a mesh points up; a scene file says it itself [default: y].
+    #[arg(long, value_enum)]
+    pub up: Option<UpArgument>,
+    /// Where the first light stands, degrees, counted like --azimuth [default: as the scene says, else -40].
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = finite)]
+    pub light_azimuth: Option<f32>,
+    /// How high the first light stands, degrees above the horizon, -90 to 90 [default: as the scene says, else 50].
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = elevation)]
+    pub light_elevation: Option<f32>,
+    /// How far the first light is, counted like --distance [default: as the scene says, else 6].
+    #[arg(long, value_name = "RADII", allow_negative_numbers = true, value_parser = distance)]
+    pub light_distance: Option<f32>,
+    /// Pictures for two eyes [default: as the scene says, else none].
+    #[arg(long, value_enum)]
+    pub stereo: Option<StereoArgument>,
+    /// Distance between the eyes, scene units [default: as the scene says, else a thirtieth of --convergence].
+    #[arg(long, value_name = "UNITS", allow_negative_numbers = true, value_parser = length)]
+    pub eye_distance: Option<f32>,
+    /// Depth that appears on the screen itself, scene units [default: as the scene says, else what the camera looks at].
+    #[arg(long, value_name = "UNITS", allow_negative_numbers = true, value_parser = length)]
+    pub convergence: Option<f32>,
+    /// Brightness in stops: each doubles the light; not for EXR files [default: as the scene says, else 0].
+    #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = exposure)]
+    pub exposure: Option<f32>,
+    /// Curve that makes bright light fit the screen; not for EXR files [default: as the scene says, else none].
+    #[arg(long, value_enum)]
+    pub tone: Option<Curve>,
+}
+
+impl LookArguments {
+    /// A view with what is given here changed.
+    pub fn applied(&self, mut view: View) -> View {
+        fn set<T: Copy>(value: &mut T, given: Option<T>) {
+            *value = given.unwrap_or(*value);
+        }
+        set(&mut view.samples, self.samples);
+        set(&mut view.pattern, self.pattern);
+        set(&mut view.filter, self.filter);
+        set(&mut view.shading, self.shading);
+        set(&mut view.depth, self.depth);
+        set(&mut view.cutoff, self.cutoff);
+        set(&mut view.camera.azimuth, self.azimuth);
+        set(&mut view.camera.elevation, self.elevation);
+        set(&mut view.camera.distance, self.distance);
+        set(&mut view.field_of_view, self.fov);
+        set(
+            &mut view.up,
+            self.up.map(|up| match up {
+                UpArgument::Y => Up::Y,
+                UpArgument::Z => Up::Z,
+            }),
+        );
+        set(&mut view.light.azimuth, self.light_azimuth);
+        set(&mut view.light.elevation, self.light_elevation);
+        set(&mut view.light.distance, self.light_distance);
+        set(&mut view.tone.exposure, self.exposure);
+        set(&mut view.tone.curve, self.tone);
+        if let Some(StereoArgument(mode)) = self.stereo {
+            view.stereo = mode.map(|mode| Stereo {
+                mode,
+                ..view.stereo.unwrap_or(Stereo::new(mode))
+            });
+        }
+        if let Some(stereo) = &mut view.stereo {
+            stereo.eye_distance = self.eye_distance.or(stereo.eye_distance);
+            stereo.convergence = self.convergence.or(stereo.convergence);
+        }
+        view
+    }
+
+    /// Makes sure that what is given has a meaning for a source, as far as that can be said before it is loaded.
+    pub fn check(&self, source: &Source) -> Result<(), Failure> {
+        let is_scene = matches!(source, Source::Scene(_));
+        if is_scene && self.up.is_some() {
+            return Err(Failure::usage(
+                "A scene file says itself which axis points up: leave --up out, and say up = \"y\" or up = \"z\" in the \
+                 scene file.",
+            ));
+        }
+        match self.stereo {
+            None if is_scene => Ok(()),
+            stereo => self.check_eyes(stereo.is_some_and(|stereo| stereo.0.is_some())),
+        }
+    }
+
+    /// Makes sure that only a picture for two eyes is told how far they are apart.
+    pub fn check_eyes(&self, is_stereo: bool) -> Result<(), Failure> {
+        if !is_stereo && (self.eye_distance.is_some() || self.convergence.is_some()) {
+            return Err(Failure::usage(
+                "Only pictures for two eyes have an eye distance and a convergence: leave --eye-distance and \
+                 --convergence out, or say what kind of picture is wanted, for example --stereo anaglyph.",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// A kind of picture for two eyes, or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StereoArgument(pub Option<StereoMode>);
+
+impl ValueEnum for StereoArgument {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[
+            StereoArgument(None),
+            StereoArgument(Some(StereoMode::SideBySide)),
+            StereoArgument(Some(StereoMode::Rows)),
+            StereoArgument(Some(StereoMode::Sequential)),
+            StereoArgument(Some(StereoMode::Anaglyph)),
+        ]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        match self.0 {
+            None => Some(PossibleValue::new("none").help("A picture for one eye")),
+            Some(mode) => mode.to_possible_value(),
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum UpArgument {
+    Y,
+    Z,
+}

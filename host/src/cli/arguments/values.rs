@@ -1,0 +1,136 @@
+//! Values on the command line.
+
+use oktant::aov::Aov;
+use oktant::octree::OctreeOptions;
+use oktant::picture::{DEFAULT_SIZE, LARGEST_PICTURE, LARGEST_SIDE};
+use oktant_shared::octree::MAX_DEPTH;
+
+/// Width and height in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    pub width: u32,
+    pub height: u32,
+}
+
+impl Default for Size {
+    fn default() -> Self {
+        DEFAULT_SIZE.into()
+    }
+}
+
+impl From<[u32; 2]> for Size {
+    fn from([width, height]: [u32; 2]) -> Self {
+        Size { width, height }
+    }
+}
+
+pub fn size(text: &str) -> Result<Size, String> {
+    let wanted = "give width and height in pixels, for example 1280x968";
+    let (width, height) = text.split_once(['x', 'X']).ok_or(wanted)?;
+    let side = |text: &str| text.trim().parse::<u32>().map_err(|_| wanted);
+    let size = Size {
+        width: side(width)?,
+        height: side(height)?,
+    };
+    if size.width == 0 || size.height == 0 {
+        return Err("a picture needs at least 1x1 pixels".into());
+    }
+    let pixels = u64::from(size.width) * u64::from(size.height);
+    if size.width.max(size.height) > LARGEST_SIDE || pixels > LARGEST_PICTURE {
+        return Err(format!(
+            "give at most {LARGEST_SIDE} pixels a side and {LARGEST_PICTURE} in all"
+        ));
+    }
+    Ok(size)
+}
+
+/// Limits of the octree as given; what is not given keeps its default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Octree(pub OctreeOptions);
+
+pub fn octree(text: &str) -> Result<Octree, String> {
+    let mut options = OctreeOptions::default();
+    for part in text.split(',').filter(|part| !part.trim().is_empty()) {
+        let wanted = "give any of depth=0..13, leaf=N and budget=N, separated by commas";
+        let (name, value) = part.split_once('=').ok_or(wanted)?;
+        let value: u32 = value.trim().parse().map_err(|_| wanted)?;
+        match name.trim() {
+            "depth" if value <= MAX_DEPTH => options.depth = value,
+            "leaf" if value >= 1 => options.leaf = value,
+            "budget" if (1..=256).contains(&value) => options.budget = value,
+            "depth" => return Err(format!("depth is at most {MAX_DEPTH}")),
+            "leaf" => return Err("leaf is at least 1".into()),
+            "budget" => return Err("budget is 1 to 256".into()),
+            _ => return Err(wanted.into()),
+        }
+    }
+    Ok(Octree(options))
+}
+
+/// What is to be told of pixels beside their colour, each once.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Aovs(pub Vec<Aov>);
+
+pub fn aovs(text: &str) -> Result<Aovs, String> {
+    let mut list = Vec::new();
+    for name in text.split(',').map(str::trim).filter(|name| !name.is_empty()) {
+        match Aov::ALL.into_iter().find(|aov| aov.name() == name) {
+            Some(aov) => list.push(aov),
+            None if name == "all" => list.extend(Aov::ALL),
+            None => {
+                let names = Aov::ALL.map(Aov::name).join(", ");
+                return Err(format!("give any of {names}, separated by commas, or all"));
+            }
+        }
+    }
+    list.sort();
+    list.dedup();
+    Ok(Aovs(list))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes() {
+        assert_eq!(
+            size("640x480"),
+            Ok(Size {
+                width: 640,
+                height: 480
+            })
+        );
+        for bad in [
+            "",
+            "640",
+            "640x",
+            "0x10",
+            "10x0",
+            "-1x5",
+            "1e3x5",
+            "99999x1",
+            "32768x32768",
+        ] {
+            assert!(size(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn lists_of_aovs() {
+        assert_eq!(aovs("").unwrap().0, []);
+        assert_eq!(aovs("rays, depth,rays").unwrap().0, [Aov::Depth, Aov::Rays]);
+        assert_eq!(aovs("all").unwrap().0, Aov::ALL);
+        assert!(aovs("colour").unwrap_err().contains("barycentrics"));
+    }
+
+    #[test]
+    fn octree_limits() {
+        assert_eq!(octree("").unwrap().0, OctreeOptions::default());
+        let options = octree("depth=5, leaf=3").unwrap().0;
+        assert_eq!((options.depth, options.leaf), (5, 3));
+        for bad in ["depth", "depth=14", "leaf=0", "budget=0", "size=3", "depth=-1"] {
+            assert!(octree(bad).is_err(), "{bad}");
+        }
+    }
+}
