@@ -139,7 +139,7 @@ fn light(rng: &mut Rng) -> Light {
         kind: POINT,
         color: color(rng) * pick([1.0, 100.0], rng),
         falloff_radius: pick([0.0, 1e-3, 1.0], rng),
-        edge_u: pick([vector(rng), Vec3::ZERO], rng),
+        edge_u: pick([vector(rng), vector(rng) * 1e-6], rng),
         samples_per_side: rng.u32(1..3),
         edge_v: vector(rng),
         reserved: 0,
