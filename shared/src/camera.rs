@@ -59,6 +59,7 @@ impl Camera {
     /// CG&A 12(2), 1992). A point at depth `z` is seen by the right eye `eye_shift * (1 / convergence - 1 / z)` to the
     /// right of where the middle sees it, in units of the picture plane at distance 1, and by the left eye as far to the
     /// left.
+    #[inline]
     pub fn ray(&self, x: f32, y: f32, eye: f32) -> Ray {
         let across = x / self.width as f32 * 2.0 - 1.0;
         let upwards = 1.0 - y / self.height as f32 * 2.0;

@@ -53,6 +53,7 @@ pub struct Incident {
 const REACH_ERROR: f32 = 16.0 / (1 << 24) as f32;
 
 /// How far of the way to the light nothing must be in between, 0 to 1, in a scene of that extent.
+#[inline]
 fn reach(point: Vec3, direction: Vec3, extent: f32) -> f32 {
     let length = direction.length();
     let size = max_component(point.abs()) + max_component((point + direction).abs()) + length + extent;
@@ -72,6 +73,7 @@ impl Light {
 
     /// The light that one of its samples sends to a point, in a scene whose triangles are no larger than `extent`, scene
     /// units.
+    #[inline]
     pub fn incident(&self, sample: u32, point: Vec3, extent: f32) -> Incident {
         if self.kind == DIRECTIONAL {
             return Incident {

@@ -20,6 +20,7 @@ pub fn sample_ray(frame: &Frame, pixel: UVec2, number: u32) -> Ray {
     ray_of(frame, &EyeView::new(frame, pixel, 0), place)
 }
 
+#[inline]
 fn ray_of(frame: &Frame, view: &EyeView, place: Vec2) -> Ray {
     let (x, y) = (view.pixel.x as f32 + place.x, view.pixel.y as f32 + place.y);
     frame.camera.ray(x, y, view.eye)
@@ -65,6 +66,7 @@ pub fn render_pixel<V: Traversal, const FULL: bool>(frame: &Frame, world: &World
 }
 
 /// The colour of the first surface that a ray meets.
+#[inline]
 fn first_surface<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Traced {
     let mut traced = Traced {
         rays: 1,

@@ -31,6 +31,7 @@ pub struct Sample {
 }
 
 /// The sample with this number, below [`Frame::samples`].
+#[inline]
 pub fn sample(frame: &Frame, number: u32) -> Sample {
     let even = place(frame, number);
     let radius = if frame.filter == BOX {
@@ -48,6 +49,7 @@ pub fn sample(frame: &Frame, number: u32) -> Sample {
 }
 
 /// The place of a sample in the unit square.
+#[inline]
 fn place(frame: &Frame, number: u32) -> Vec2 {
     let side = frame.samples_per_side;
     if frame.pattern == ROTATED {
@@ -65,6 +67,7 @@ fn place(frame: &Frame, number: u32) -> Vec2 {
     vec2((number % side) as f32 + 0.5, (number / side) as f32 + 0.5) / side as f32
 }
 
+#[inline]
 fn weight(filter: u32, offset: Vec2) -> f32 {
     if filter == BOX {
         1.0

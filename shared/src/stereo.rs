@@ -26,6 +26,7 @@ pub struct EyeView {
 
 impl EyeView {
     /// What a pixel of a picture shows; of two eyes that share it, the one with this number.
+    #[inline]
     pub fn new(frame: &Frame, pixel: UVec2, number: u32) -> Self {
         let size = uvec2(frame.camera.width, frame.camera.height);
         let (pixel, is_right) = match frame.stereo {
@@ -50,6 +51,7 @@ impl EyeView {
     }
 
     /// The part of a colour that the eye contributes to the pixel, and of its sample's weight.
+    #[inline]
     pub fn share(&self, frame: &Frame, color: Vec3, weight: f32) -> (Vec3, f32) {
         if frame.stereo != ANAGLYPH {
             (color, weight)

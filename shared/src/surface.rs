@@ -128,6 +128,7 @@ fn on_plane(world: &World<'_>, ray: &Ray, hit: &Hit, view: Vec3) -> Surface {
 }
 
 /// The face normal of a triangle that a ray met. One so thin that rounding leaves it without area is seen from its front.
+#[inline]
 fn faced(triangle: &Triangle, ray: &Ray) -> Vec3 {
     let face = face_normal(triangle);
     if face == Vec3::ZERO {
@@ -236,6 +237,7 @@ fn towards(v: Vec3, reference: Vec3) -> Vec3 {
 
 /// The normal on the side of the viewer, where a mesh's normals and the order of its corners disagree too, tilted towards
 /// the viewer by no more than what keeps the reflected ray above the surface.
+#[inline]
 fn bent(normal: Vec3, side: Vec3, view: Vec3) -> Vec3 {
     let normal = towards(normal, side);
     let mirrored = reflected(-view, normal);
@@ -251,6 +253,7 @@ fn bent(normal: Vec3, side: Vec3, view: Vec3) -> Vec3 {
 /// The point lifted to where the surface would be if it were as round as its normals say: the mean of its projections on
 /// the corners' tangent planes, those below which it lies (J. Hanika, "Hacking the shadow terminator", Ray Tracing Gems
 /// II, 2021). Rays to the light that start there do not see the edges of the triangles.
+#[inline]
 fn lifted(triangle: &Triangle, corners: &[Vertex; 3], hit: &Hit, point: Vec3, side: Vec3) -> Vec3 {
     let lift = |corner: Vec3, normal: Vec3, weight: f32| {
         let normal = towards(normal, side);

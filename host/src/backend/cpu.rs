@@ -4,7 +4,7 @@ use super::{Backend, BackendError, Parts, Query};
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::scene::Scene;
-use glam::{UVec2, Vec4, uvec2};
+use glam::{UVec2, uvec2};
 use oktant_shared::box_test::{KayKajiya, Williams};
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
@@ -50,17 +50,16 @@ impl Cpu {
         let overwrite = frame.first_sample == 0;
         let rows = size.y.div_ceil(TILE);
         let done = AtomicU32::new(0);
-        let mut pixels: Vec<_> = picture.sums.iter_mut().zip(&mut picture.work).collect();
         for_each_tile(
-            &mut pixels,
+            (&mut picture.sums, &mut picture.work),
             size.x,
-            |pixel, (sum, work): &mut (&mut Vec4, &mut Vec4)| {
+            |pixel, sum, work| {
                 let pixel = body(frame, &world, pixel);
                 if overwrite {
-                    (**sum, **work) = (pixel.sum, pixel.work);
+                    (*sum, *work) = (pixel.sum, pixel.work);
                 } else {
-                    **sum += pixel.sum;
-                    **work += pixel.work;
+                    *sum += pixel.sum;
+                    *work += pixel.work;
                 }
             },
             || {
@@ -90,9 +89,9 @@ impl Backend for Cpu {
         let size = frame.size();
         let mut hits = vec![Hit::miss(0.0); size.x as usize * size.y as usize];
         for_each_tile(
-            &mut hits,
+            (&mut hits, &mut vec![(); size.x as usize * size.y as usize]),
             size.x,
-            |pixel, hit| *hit = hit_pixel::<Standard>(frame, &world, pixel),
+            |pixel, hit, ()| *hit = hit_pixel::<Standard>(frame, &world, pixel),
             || true,
         );
         Ok(hits)
@@ -121,49 +120,46 @@ fn cast<V: Traversal>(scene: &Scene, query: Query, rays: &[Ray]) -> Vec<Hit> {
         .collect()
 }
 
-/// Calls `body` for every pixel, tile by tile in parallel; `after_row`, called after a row of tiles, says whether to go
-/// on.
-fn for_each_tile<T: Send>(
-    pixels: &mut [T],
+/// Calls `body` for every pixel with its elements of two arrays, tile by tile in parallel; `after_row`, called after a row of
+/// tiles, says whether to go on.
+fn for_each_tile<T: Send, U: Send>(
+    (first, second): (&mut [T], &mut [U]),
     width: u32,
-    body: impl Fn(UVec2, &mut T) + Sync,
+    body: impl Fn(UVec2, &mut T, &mut U) + Sync,
     after_row: impl Fn() -> bool + Sync,
 ) {
     let stopped = AtomicBool::new(false);
-    pixels
-        .par_chunks_mut((width * TILE) as usize)
-        .enumerate()
-        .for_each(|(row, band)| {
-            // Bands are as wide as the picture and split among threads column by column, so that the rest of a picture is
-            // shared too.
-            let mut lines: Vec<&mut [T]> = band.chunks_mut(width as usize).collect();
-            let mut tiles: Vec<(u32, Vec<&mut [T]>)> = Vec::new();
-            let mut left = 0;
-            while left < width {
-                let columns = TILE.min(width - left) as usize;
-                let tile = lines
-                    .iter_mut()
-                    .map(|line| {
-                        let (tile, rest) = std::mem::take(line).split_at_mut(columns);
-                        *line = rest;
-                        tile
-                    })
-                    .collect();
-                tiles.push((left, tile));
-                left += TILE;
+    let band = (width * TILE) as usize;
+    let bands = first.par_chunks_mut(band).zip(second.par_chunks_mut(band));
+    bands.enumerate().for_each(|(row, (first, second))| {
+        // Bands are as wide as the picture and split among threads column by column, so that the rest of a picture is
+        // shared too.
+        let tiles = tiles(first, width).into_par_iter().zip(tiles(second, width));
+        tiles.enumerate().for_each(|(column, (first, second))| {
+            if stopped.load(Ordering::Relaxed) {
+                return;
             }
-            tiles.into_par_iter().for_each(|(left, tile)| {
-                if stopped.load(Ordering::Relaxed) {
-                    return;
+            let corner = uvec2(column as u32, row as u32) * TILE;
+            for (y, (first, second)) in first.into_iter().zip(second).enumerate() {
+                for (x, (first, second)) in first.iter_mut().zip(second).enumerate() {
+                    body(corner + uvec2(x as u32, y as u32), first, second);
                 }
-                for (y, line) in tile.into_iter().enumerate() {
-                    for (x, pixel) in line.iter_mut().enumerate() {
-                        body(uvec2(left + x as u32, row as u32 * TILE + y as u32), pixel);
-                    }
-                }
-            });
-            if !after_row() {
-                stopped.store(true, Ordering::Relaxed);
             }
         });
+        if !after_row() {
+            stopped.store(true, Ordering::Relaxed);
+        }
+    });
+}
+
+/// The tiles of a band from left to right, each as its rows.
+fn tiles<T>(band: &mut [T], width: u32) -> Vec<Vec<&mut [T]>> {
+    let mut tiles: Vec<Vec<&mut [T]>> = Vec::new();
+    tiles.resize_with(width.div_ceil(TILE) as usize, Vec::new);
+    for line in band.chunks_mut(width as usize) {
+        for (tile, row) in tiles.iter_mut().zip(line.chunks_mut(TILE as usize)) {
+            tile.push(row);
+        }
+    }
+    tiles
 }
