@@ -3,10 +3,12 @@
 pub mod cpu;
 pub mod gpu;
 
+use self::gpu::KernelError;
 use crate::picture::Picture;
 use crate::progress::Progress;
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
+use oktant_shared::parts::Parts;
 use oktant_shared::ray::Ray;
 
 /// What is to render.
@@ -30,16 +32,6 @@ pub enum Query {
     Any,
 }
 
-/// The parts that a traversal can be put together from, for casting rays.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Parts {
-    /// Box test of Kay and Kajiya, watertight triangle test: what pictures are rendered with.
-    #[default]
-    KayKajiyaWatertight,
-    /// Box test of Williams et al., triangle test of Moller and Trumbore.
-    WilliamsMollerTrumbore,
-}
-
 /// A renderer with a scene.
 pub trait Backend: Send {
     /// What it runs on, for people.
@@ -57,10 +49,10 @@ pub trait Backend: Send {
     /// As [`Backend::render`].
     fn hits(&mut self, frame: &Frame) -> Result<Vec<Hit>, BackendError>;
 
-    /// Traces an array of rays.
+    /// Traces an array of rays; the scene's structure must be the one that the parts' traversal reads.
     ///
     /// # Errors
-    /// As [`Backend::render`].
+    /// As [`Backend::render`], and [`BackendError::Parts`] where the combination is not offered or needs another structure.
     fn cast(&mut self, parts: Parts, query: Query, rays: &[Ray]) -> Result<Vec<Hit>, BackendError>;
 }
 
@@ -93,6 +85,17 @@ pub enum BackendError {
         /// Name of the adapter.
         adapter: String,
     },
+    /// The kernel that was asked for cannot be run.
+    #[error(transparent)]
+    Kernel(#[from] KernelError),
+    /// The kernel that was asked for needs a GPU.
+    #[error(
+        "The kernel needs a GPU, and there is none to use ({0}); leave --kernel out, or take any with --backend gpu."
+    )]
+    KernelWithoutGpu(String),
+    /// A combination of parts that there is not.
+    #[error("There is no {0}; run `oktant kernels` for what is offered.")]
+    Parts(Parts),
     /// Something went wrong on the device while it worked.
     #[error("The GPU {adapter} failed ({reason}); use --backend cpu.")]
     Failed {
@@ -118,6 +121,9 @@ impl BackendError {
                 adapter,
             } => format!("The {what} take {bytes} bytes and {adapter} binds at most {limit} at once"),
             BackendError::Failed { adapter, reason } => format!("The GPU {adapter} failed ({reason})"),
+            BackendError::Parts(parts) => format!("The GPU has no {parts}"),
+            BackendError::Kernel(error) => error.to_string().trim_end_matches('.').into(),
+            BackendError::KernelWithoutGpu(reason) => format!("There is no GPU for the kernel ({reason})"),
         };
         format!("{what}: the CPU renders.")
     }

@@ -1,9 +1,12 @@
 //! The command line: arguments, and one file for each command.
 
 mod arguments;
+mod bench;
+mod cast;
 mod check;
 mod engine;
 mod info;
+mod kernels;
 mod progress_bar;
 mod render;
 mod scene_source;
@@ -31,7 +34,10 @@ pub fn run() -> ExitCode {
     let result = match arguments.command.unwrap_or(Command::View(ViewArguments::default())) {
         Command::View(arguments) => view::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
+        Command::Cast(arguments) => cast::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Kernels(arguments) => kernels::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Completions { shell } => {
             let mut completions = Vec::new();

@@ -66,10 +66,10 @@ mod tests {
     use crate::backend::cpu::Cpu;
     use crate::balls;
     use crate::model::{Model, plain_material};
-    use crate::octree::OctreeOptions;
     use crate::progress::silent;
     use crate::sampling::{Filter, Samples};
     use crate::scene::Scene;
+    use crate::structure::StructureOptions;
     use crate::view::View;
     use glam::{Vec3, vec4};
     use oktant_shared::environment::Environment;
@@ -117,7 +117,7 @@ mod tests {
         ];
         model.ambient = Vec3::ONE;
         model.environment = Environment::constant(Vec3::ZERO);
-        let scene = Arc::new(Scene::of_model(model, &OctreeOptions::default(), &silent).unwrap());
+        let scene = Arc::new(Scene::of_model(model, &StructureOptions::default(), &silent).unwrap());
         for filter in [Filter::Box, Filter::Tent] {
             let view = View {
                 depth: 1,

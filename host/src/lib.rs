@@ -1,9 +1,16 @@
 //! The host of oktant: files, octree, back ends, viewer.
 
+mod accident;
 pub mod aov;
+pub mod array_file;
 pub mod backend;
 pub mod balls;
+pub mod bench;
+pub mod binary_mesh;
 pub mod effort;
+pub mod generated;
+pub mod grid;
+mod hittable;
 pub mod media;
 pub mod mesh;
 pub mod mesh_source;
@@ -15,14 +22,20 @@ pub mod output;
 pub mod picture;
 pub mod ply;
 pub mod progress;
+pub mod ray_sets;
+pub mod rays;
 pub mod sampling;
 pub mod scene;
 pub mod scene_file;
 pub mod seen;
 pub mod shapes;
+pub mod slots;
 pub mod source;
+pub mod spread;
 pub mod stereo;
+pub mod structure;
 pub mod tone;
 pub mod transform;
+pub mod tree;
 pub mod view;
 pub mod viewer;

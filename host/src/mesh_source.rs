@@ -1,6 +1,7 @@
 //! Where a mesh comes from: a file, or the program itself.
 
 use crate::balls::balls;
+use crate::binary_mesh::{self, BinaryMeshError};
 use crate::mesh::Mesh;
 use crate::ply::{self, PlyError};
 use crate::progress::Progress;
@@ -21,8 +22,19 @@ pub enum MeshSource {
     Balls,
     /// A room 200 m long with stands, 55,680 triangles, made by code.
     Stadium,
-    /// A PLY file.
+    /// A PLY file, or one that [`binary_mesh`] reads.
     File(PathBuf),
+}
+
+/// Why a mesh cannot be had.
+#[derive(Debug, thiserror::Error)]
+pub enum MeshError {
+    /// A PLY file, or one of no known format.
+    #[error(transparent)]
+    Ply(#[from] PlyError),
+    /// A file of plain binary arrays.
+    #[error(transparent)]
+    Binary(#[from] BinaryMeshError),
 }
 
 impl MeshSource {
@@ -40,12 +52,13 @@ impl MeshSource {
     /// Loads the mesh; where it has no normals, they are computed from its faces.
     ///
     /// # Errors
-    /// What [`ply::read`] returns.
-    pub fn load(&self, progress: Progress<'_>) -> Result<Mesh, PlyError> {
+    /// What [`ply::read`] and [`binary_mesh::read`] return.
+    pub fn load(&self, progress: Progress<'_>) -> Result<Mesh, MeshError> {
         let mesh = match self {
             MeshSource::Bunny => ply::parse(BUNNY, "the built-in bunny", progress)?,
             MeshSource::Balls => balls(),
             MeshSource::Stadium => stadium(),
+            MeshSource::File(path) if binary_mesh::is_binary_mesh(path) => binary_mesh::read(path, progress)?,
             MeshSource::File(path) => ply::read(path, progress)?,
         };
         Ok(mesh.with_normals())

@@ -2,12 +2,16 @@
 
 mod aov_png;
 mod format;
+mod hits_file;
 mod open_exr;
 mod png;
 mod rendering_files;
+mod text_file;
 
 pub use format::{Bits, Format, FormatError};
+pub use hits_file::{HitsFile, face_normal};
 pub use rendering_files::{RenderingFiles, Written};
+pub use text_file::TextFile;
 
 use self::png::{Pixels, Png};
 use crate::picture::Picture;
@@ -29,13 +33,13 @@ pub struct PictureFile {
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     /// There is something there that must not be replaced.
-    #[error("{} is not a file; give another name for the picture.", .0.display())]
+    #[error("{} is not a file; give another name for it.", .0.display())]
     NotAFile(PathBuf),
     /// The folder is missing.
-    #[error("The folder {} does not exist; make it, or give another name for the picture.", .0.display())]
+    #[error("The folder {} does not exist; make it, or give another name for it.", .0.display())]
     NoFolder(PathBuf),
     /// Anything else that the system says.
-    #[error("{} cannot be written ({source}); free space or give another name for the picture.", path.display())]
+    #[error("{} cannot be written ({source}); free space or give another name for it.", path.display())]
     Io {
         /// The file.
         path: PathBuf,

@@ -1,4 +1,4 @@
-//! A model with its octree, in the arrays that the kernel reads.
+//! A model with the structure that rays are traced through, in the arrays that the kernel reads.
 
 mod validate;
 
@@ -6,14 +6,16 @@ pub use validate::InvalidModel;
 
 use crate::mesh::Mesh;
 use crate::model::{Focus, Model, needs_coordinates, white_light};
-use crate::octree::{InvalidOctree, Octree, OctreeError, OctreeOptions};
+use crate::octree::OctreeError;
 use crate::progress::Progress;
+use crate::structure::{InvalidStructure, Structure, StructureOptions};
 use bytemuck::Zeroable;
-use glam::{Vec2, Vec3};
+use glam::{UVec4, Vec2, Vec3};
 use oktant_shared::environment::Environment;
 use oktant_shared::light::{AREA, Light};
 use oktant_shared::material::Material;
-use oktant_shared::octree::{Node, Root};
+use oktant_shared::octree::Root;
+use oktant_shared::parts::Parts;
 use oktant_shared::plane::Plane;
 use oktant_shared::scene::{Appearance, World};
 use oktant_shared::texture::{NO_TEXTURE, Texture};
@@ -25,19 +27,23 @@ use rayon::prelude::*;
 /// Arrays that nothing refers to hold one element that nobody reads, because a GPU allows no empty buffers.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The octree's cube.
+    /// What pictures are rendered with; the structure is built for it.
+    pub parts: Parts,
+    /// The cube around everything.
     pub root: Root,
-    /// The octree's cells.
-    pub nodes: Vec<Node>,
-    /// Ids of triangles, leaf by leaf.
+    /// The structure's nodes.
+    pub nodes: Vec<UVec4>,
+    /// Slots of triangles, leaf by leaf.
     pub references: Vec<u32>,
-    /// The triangles by id.
+    /// The triangles by slot.
     pub triangles: Vec<Triangle>,
+    /// The triangles' ids by slot.
+    pub ids: Vec<u32>,
     /// Normals and colours by vertex; a single one where the mesh has neither.
     pub vertices: Vec<Vertex>,
     /// Texture coordinates by vertex; a single one where the mesh has none.
     pub coordinates: Vec<Vec2>,
-    /// Index of the material by triangle; a single one where the scene is plain.
+    /// Index of the material by slot; a single one where the scene is plain.
     pub material_ids: Vec<u32>,
     /// The materials.
     pub materials: Vec<Material>,
@@ -61,9 +67,9 @@ pub struct Scene {
     pub ambient: Vec3,
     /// What is looked at.
     pub focus: Focus,
-    /// Triangles left out of the octree because they have no area.
+    /// Triangles left out of the structure because they have no area.
     pub degenerate: u32,
-    /// Triangles left out of the octree because they lie exactly on one with a lower id.
+    /// Triangles left out of the structure because they lie exactly on one with a lower id.
     pub duplicates: u32,
     /// Corner of the mesh's bounding box with the smallest coordinates, scene units.
     pub low: Vec3,
@@ -82,7 +88,7 @@ pub enum SceneError {
     Model(#[from] InvalidModel),
     /// The build went wrong.
     #[error(transparent)]
-    Invalid(#[from] InvalidOctree),
+    Invalid(#[from] InvalidStructure),
 }
 
 impl Scene {
@@ -90,27 +96,27 @@ impl Scene {
     ///
     /// # Errors
     /// [`SceneError::Octree`] where the mesh has no triangle with an area.
-    pub fn new(mesh: &Mesh, options: &OctreeOptions, progress: Progress<'_>) -> Result<Self, SceneError> {
+    pub fn new(mesh: &Mesh, options: &StructureOptions, progress: Progress<'_>) -> Result<Self, SceneError> {
         Self::of_model(Model::of_mesh(mesh.clone()), options, progress)
     }
 
-    /// Builds the octree of a model's triangles and lays out its arrays.
+    /// Builds the structure over a model's triangles and lays out its arrays.
     ///
     /// # Errors
     /// [`SceneError::Octree`] where there is neither a triangle with an area nor a plane; [`SceneError::Model`] where the
     /// model breaks a rule that a kernel relies on, such as an index out of range.
-    pub fn of_model(model: Model, options: &OctreeOptions, progress: Progress<'_>) -> Result<Self, SceneError> {
+    pub fn of_model(model: Model, options: &StructureOptions, progress: Progress<'_>) -> Result<Self, SceneError> {
         validate::validate(&model)?;
-        let octree = match Octree::build(&model.mesh, options, progress) {
-            Err(OctreeError::NoArea) if !model.planes.is_empty() => Octree::empty(),
+        let structure = match Structure::build(&model.mesh, options, progress) {
+            Err(OctreeError::NoArea) if !model.planes.is_empty() => Structure::empty(options.parts.traversal),
             built => built?,
         };
-        octree.validate(model.mesh.triangles.len())?;
-        Ok(Self::from_parts(model, octree))
+        structure.validate(model.mesh.triangles.len())?;
+        Ok(Self::of_structure(model, structure, options.parts))
     }
 
-    /// Lays out the arrays of a model and its octree.
-    fn from_parts(model: Model, octree: Octree) -> Self {
+    /// Lays out the arrays of a model and its structure.
+    fn of_structure(model: Model, structure: Structure, parts: Parts) -> Self {
         let mesh = &model.mesh;
         let has_normals = !mesh.normals.is_empty();
         let has_colors = !mesh.colors.is_empty();
@@ -130,18 +136,35 @@ impl Scene {
             // Materials that ask for either are given neither.
             Vec::new()
         };
-        let triangles: Vec<Triangle> = mesh
-            .triangles
+        let mut triangles: Vec<Triangle> = structure
+            .ids
             .par_iter()
-            .map(|&[a, b, c]| Triangle {
-                a: mesh.positions[a as usize],
-                vertex_a: a,
-                b: mesh.positions[b as usize],
-                vertex_b: b,
-                c: mesh.positions[c as usize],
-                vertex_c: c,
+            .map(|id| {
+                let [a, b, c] = mesh.triangles[*id as usize];
+                Triangle {
+                    a: mesh.positions[a as usize],
+                    vertex_a: a,
+                    b: mesh.positions[b as usize],
+                    vertex_b: b,
+                    c: mesh.positions[c as usize],
+                    vertex_c: c,
+                }
             })
             .collect();
+        for slot in &structure.buried {
+            // Without area, it is hit by nothing.
+            let triangle = &mut triangles[*slot as usize];
+            (triangle.b, triangle.c) = (triangle.a, triangle.a);
+        }
+        let material_ids: Vec<u32> = if model.material_ids.is_empty() {
+            Vec::new()
+        } else {
+            structure
+                .ids
+                .par_iter()
+                .map(|id| model.material_ids[*id as usize])
+                .collect()
+        };
         let bounds = mesh.bounds();
         let (low, high) = bounds.unwrap_or_default();
         let focus = model.focus.unwrap_or(Focus {
@@ -161,13 +184,15 @@ impl Scene {
         });
         let lights: Vec<_> = lights.collect();
         let mut scene = Scene {
-            root: octree.root,
-            nodes: octree.nodes,
-            references: never_empty(octree.references),
+            parts,
+            root: structure.root,
+            nodes: structure.nodes,
+            references: never_empty(structure.references),
             triangles: never_empty(triangles),
+            ids: never_empty(structure.ids),
             vertices: never_empty(vertices),
             coordinates: never_empty(model.mesh.coordinates),
-            material_ids: never_empty(model.material_ids),
+            material_ids: never_empty(material_ids),
             materials,
             light,
             light_count: lights.len() as u32,
@@ -179,13 +204,14 @@ impl Scene {
             environment: model.environment,
             ambient: model.ambient,
             focus,
-            degenerate: octree.degenerate,
-            duplicates: octree.duplicates,
+            degenerate: structure.degenerate,
+            duplicates: structure.duplicates,
             low,
             high,
         };
-        if scene.material_ids.len() < scene.triangles.len() && !scene.is_plain() {
-            // Only what renders plain scenes does without, whatever the number of materials.
+        let is_fast = scene.is_plain() && scene.parts == Parts::default();
+        if scene.material_ids.len() < scene.triangles.len() && !is_fast {
+            // Only what renders plain scenes with the default parts does without, whatever the number of materials.
             scene.material_ids = vec![0; scene.triangles.len()];
         }
         scene
@@ -197,7 +223,9 @@ impl Scene {
             root: self.root,
             nodes: &self.nodes,
             references: &self.references,
-            triangles: &self.triangles,
+            triangles: bytemuck::cast_slice(&self.triangles),
+            ids: &self.ids,
+            parts: self.parts.number(),
         }
     }
 
@@ -247,10 +275,14 @@ impl Scene {
         (self.high - self.low).length() / 2.0
     }
 
+    /// Bytes of the structure without the triangles.
+    pub fn structure_bytes(&self) -> usize {
+        size_of_val(self.nodes.as_slice()) + size_of_val(self.references.as_slice()) + size_of_val(self.ids.as_slice())
+    }
+
     /// Bytes of all arrays.
     pub fn bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice())
-            + size_of_val(self.references.as_slice())
+        self.structure_bytes()
             + size_of_val(self.triangles.as_slice())
             + size_of_val(self.vertices.as_slice())
             + size_of_val(self.coordinates.as_slice())

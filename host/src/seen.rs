@@ -2,6 +2,7 @@
 
 use crate::picture::split;
 use crate::scene::Scene;
+use crate::slots::Slots;
 use glam::{Vec3, uvec2};
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
@@ -46,6 +47,7 @@ impl Seen {
             Surface::new::<true>
         };
         let width = middles.size().x;
+        let slots = Slots::of(scene);
         let normals = hits
             .par_iter()
             .enumerate()
@@ -55,7 +57,7 @@ impl Seen {
                 }
                 let pixel = uvec2(index as u32 % width, index as u32 / width);
                 let ray = sample_ray(&middles, pixel, 0);
-                surface(&middles, &world, &ray, hit).normal
+                surface(&middles, &world, &ray, &slots.placed(hit)).normal
             })
             .collect();
         Ok(Seen { width, hits, normals })
@@ -80,9 +82,9 @@ mod tests {
     use crate::backend::cpu::Cpu;
     use crate::balls;
     use crate::model::Model;
-    use crate::octree::OctreeOptions;
     use crate::progress::silent;
     use crate::sampling::{Pattern, Samples};
+    use crate::structure::StructureOptions;
     use crate::view::{Shading, View};
     use oktant_shared::plane::{PLANE, Plane};
     use std::sync::Arc;
@@ -93,7 +95,7 @@ mod tests {
             let low = model.mesh.bounds().unwrap().0;
             model.planes.push(Plane::new(low, Vec3::Y, 0));
         }
-        let scene = Arc::new(Scene::of_model(model, &OctreeOptions::default(), &silent).unwrap());
+        let scene = Arc::new(Scene::of_model(model, &StructureOptions::default(), &silent).unwrap());
         let mut cpu = Cpu::new(scene.clone());
         Seen::new(&view.frame(&scene, 64, 48), &scene, |frame| cpu.hits(frame)).unwrap()
     }
@@ -113,6 +115,28 @@ mod tests {
                 assert!((normal.length() - wanted).abs() < 1e-5, "{normal}");
             }
         }
+    }
+
+    #[test]
+    fn flat_normals_are_those_of_the_triangles_that_are_named() {
+        let mesh = balls::balls();
+        let view = View {
+            shading: Shading::Flat,
+            ..View::default()
+        };
+        let seen = seen(&view, false);
+        let mut hits = 0;
+        for (hit, normal) in seen.hits.iter().zip(&seen.normals).filter(|(hit, _)| hit.is_hit()) {
+            let [a, b, c] = mesh.triangles[hit.triangle as usize].map(|vertex| mesh.positions[vertex as usize]);
+            let face = (b - a).cross(c - a).normalize();
+            assert!(
+                normal.dot(face).abs() > 0.9999,
+                "{normal} is not the normal of {}",
+                hit.triangle
+            );
+            hits += 1;
+        }
+        assert!(hits > 100, "{hits}");
     }
 
     #[test]

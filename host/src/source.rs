@@ -1,8 +1,7 @@
 //! Where a scene comes from, and how it is first seen.
 
-use crate::mesh_source::MeshSource;
+use crate::mesh_source::{MeshError, MeshSource};
 use crate::model::Model;
-use crate::ply::PlyError;
 use crate::progress::Progress;
 use crate::scene_file::{self, SceneFileError};
 use crate::view::View;
@@ -36,7 +35,7 @@ pub enum Source {
 pub enum SourceError {
     /// The mesh cannot be had.
     #[error(transparent)]
-    Mesh(#[from] PlyError),
+    Mesh(#[from] MeshError),
     /// The scene file cannot be used.
     #[error(transparent)]
     Scene(#[from] SceneFileError),

@@ -8,7 +8,7 @@ use crate::tone::Tone;
 use clap::ValueEnum;
 use glam::Vec3;
 use oktant_shared::camera::Camera;
-use oktant_shared::frame::{FLAT, Frame, TRANSPARENT};
+use oktant_shared::frame::{FLAT, Frame, PARTS_SHIFT, TRANSPARENT};
 use oktant_shared::light::{AREA, DIRECTIONAL, Light};
 use oktant_shared::orbit::{Orbit, Up};
 use oktant_shared::stereo::MONO;
@@ -139,7 +139,9 @@ impl View {
             light: placed(&scene.light, &orbit(&self.light, focus.center)),
             environment: scene.environment,
             ambient: scene.ambient,
-            features: if is_flat { FLAT } else { 0 } | if scene.is_transparent() { TRANSPARENT } else { 0 },
+            features: if is_flat { FLAT } else { 0 }
+                | if scene.is_transparent() { TRANSPARENT } else { 0 }
+                | scene.parts.number() << PARTS_SHIFT,
             samples: self.samples.count(),
             pattern: self.pattern.code(),
             filter: self.filter.code(),

@@ -2,9 +2,8 @@
 //!
 //! Everything that happens to it becomes an `Event`, and that an `Input` where it asks for something; a
 //! script makes events too. The `Session` is the state that inputs change. What follows is done by threads: one
-//! renders, one loads a scene, one opens the GPU, one notices that a file was saved; they answer with a `Notice`. The window itself only draws.
+//! renders, one loads a scene, one opens the GPU or swaps its kernel, two notice that a file was saved; they answer with a `Notice`. The window itself only draws.
 
-mod accident;
 mod application;
 mod caption;
 mod compose;
@@ -18,6 +17,7 @@ mod gpu_screen;
 mod grammar;
 mod handler;
 mod input;
+mod kernel_file;
 mod load_queue;
 mod loader;
 mod loads;
@@ -52,17 +52,19 @@ mod watcher;
 mod work;
 mod worker;
 
-pub use accident::Accident;
+pub use crate::accident::Accident;
 pub use look::Look;
 pub use notice::LoadError;
 pub use screen::ScreenError;
 pub use script::ScriptError;
 
+use crate::accident;
 use crate::backend::gpu::ModulePath;
 use crate::backend::{BackendChoice, BackendError};
-use crate::octree::OctreeOptions;
 use crate::source::Source;
+use crate::structure::StructureOptions;
 use application::Application;
+use kernel_file::KernelFile;
 use notice::{Mailbox, Notice};
 use player::Player;
 use script::Script;
@@ -76,8 +78,8 @@ use winit::event_loop::EventLoop;
 pub struct ViewerOptions {
     /// What to look at.
     pub source: Source,
-    /// Limits of its octree.
-    pub octree: OctreeOptions,
+    /// What rays are traced through.
+    pub structure: StructureOptions,
     /// What is changed in the view that comes with it, or with whatever is looked at later.
     pub look: Look,
     /// Width and height of the window's inside, physical pixels; as the scene says, else 1280 times 968.
@@ -86,6 +88,9 @@ pub struct ViewerOptions {
     pub backend: BackendChoice,
     /// How the kernel reaches the GPU's driver.
     pub module: ModulePath,
+    /// The file of the kernel to run in the place of the one that is part of the program; it is read again when it is
+    /// saved.
+    pub kernel: Option<PathBuf>,
     /// A script to play; the window closes at its end.
     pub script: Option<PathBuf>,
     /// The folder for pictures that are saved by key.
@@ -137,8 +142,10 @@ pub fn run(options: ViewerOptions) -> Result<(), ViewerError> {
     let script = options.script.as_deref().map(Script::read).transpose()?;
     let event_loop = event_loop()?;
     let mailbox = Mailbox::new(event_loop.create_proxy());
+    let kernel = options.kernel.clone();
+    let kernel = kernel.map(|path| KernelFile::open(path, &mailbox)).transpose()?;
     let player = script.map(|script| Player::new(script, start));
-    let mut application = Application::new(options, start, mailbox, player);
+    let mut application = Application::new(options, kernel, start, mailbox, player);
     accident::silence_panics();
     accident::caught(|| event_loop.run_app(&mut application))
         .map_err(ViewerError::Accident)?

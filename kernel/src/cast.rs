@@ -1,16 +1,12 @@
 //! Arrays of rays.
 
-use glam::UVec3;
-use oktant_shared::box_test::{KayKajiya, Williams};
+use glam::{UVec3, UVec4, Vec4};
+use oktant_shared::buffer::store;
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
-use oktant_shared::octree::Node;
 use oktant_shared::ray::Ray;
-use oktant_shared::revelles::Revelles;
 use oktant_shared::scene::Scene;
 use oktant_shared::traversal::Traversal;
-use oktant_shared::triangle::Triangle;
-use oktant_shared::triangle_test::{MollerTrumbore, Watertight};
 use spirv_std::spirv;
 
 /// Threads of a workgroup, and workgroups of a row of a dispatch: devices allow 65,535 along an axis.
@@ -22,29 +18,33 @@ macro_rules! cast {
         #[spirv(compute(threads(64), entry_point_name = $entry))]
         pub fn $name(
             #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[Node],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[UVec4],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] references: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] triangles: &[Triangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] triangles: &[Vec4],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] ids: &[u32],
             #[spirv(uniform, descriptor_set = 1, binding = 0)] frame: &Frame,
-            #[spirv(storage_buffer, descriptor_set = 2, binding = 0)] hits: &mut [Hit],
-            #[spirv(storage_buffer, descriptor_set = 2, binding = 1)] rays: &[Ray],
+            #[spirv(storage_buffer, descriptor_set = 2, binding = 0)] hits: &mut [UVec4],
+            #[spirv(storage_buffer, descriptor_set = 2, binding = 1)] rays: &[Vec4],
         ) {
-            let index = (id.y * ROW + id.x) as usize;
-            if index < hits.len() && index < rays.len() {
+            let index = (id.y * ROW + id.x);
+            if (index < hits.len() as u32) & (2 * index + 1 < rays.len() as u32) {
                 let scene = Scene {
                     root: frame.root,
                     nodes,
                     references,
                     triangles,
+                    ids,
+                    parts: 0,
                 };
-                hits[index] = $query::<$traversal>(&scene, &rays[index]);
+                let hit = $query::<$traversal>(&scene, &Ray::of_rows(rays, index));
+                store(hits, index, hit.row());
             }
         }
     };
 }
 
 fn closest<V: Traversal>(scene: &Scene<'_>, ray: &Ray) -> Hit {
-    V::closest_hit(scene, ray)
+    scene.identified(V::closest_hit(scene, ray))
 }
 
 /// A hit at 0 on triangle 0, or a miss.
@@ -60,31 +60,12 @@ fn any<V: Traversal>(scene: &Scene<'_>, ray: &Ray) -> Hit {
     }
 }
 
-cast!(
-    closest_kay_kajiya_watertight,
-    "closest_kay_kajiya_watertight",
-    Revelles<KayKajiya, Watertight>,
-    closest,
-    "Writes the nearest hit of each ray."
-);
-cast!(
-    any_kay_kajiya_watertight,
-    "any_kay_kajiya_watertight",
-    Revelles<KayKajiya, Watertight>,
-    any,
-    "Writes for each ray triangle 0 if anything is hit, else a miss."
-);
-cast!(
-    closest_williams_moller_trumbore,
-    "closest_williams_moller_trumbore",
-    Revelles<Williams, MollerTrumbore>,
-    closest,
-    "Writes the nearest hit of each ray."
-);
-cast!(
-    any_williams_moller_trumbore,
-    "any_williams_moller_trumbore",
-    Revelles<Williams, MollerTrumbore>,
-    any,
-    "Writes for each ray triangle 0 if anything is hit, else a miss."
-);
+macro_rules! cast_all {
+    ($($traversal:ident $triangle:ident $box_test:ident $closest:ident $any:ident
+        $closest_name:literal $any_name:literal $kind:ty;)+) => {$(
+        cast!($closest, $closest_name, $kind, closest, "Writes the nearest hit of each ray.");
+        cast!($any, $any_name, $kind, any, "Writes for each ray triangle 0 if anything is hit, else a miss.");
+    )+};
+}
+
+oktant_shared::offered_parts!(cast_all);

@@ -9,7 +9,7 @@ use oktant_shared::hit::Hit;
 use oktant_shared::ray::{PreparedRay, Ray};
 use oktant_shared::secondary_origin::secondary_origin;
 use oktant_shared::triangle::Triangle;
-use oktant_shared::triangle_test::{MollerTrumbore, TriangleTest, Watertight};
+use oktant_shared::triangle_test::{BaldwinWeber, MollerTrumbore, Plucker, TriangleTest, Watertight};
 use spirv_std::spirv;
 
 /// Of `(a, b, c, d)`: `fma(a, b, c)`, `a b - c d`, `c - a b` and the smaller of `a` and `b`.
@@ -79,6 +79,8 @@ macro_rules! probe_triangle_test {
 
 probe_triangle_test!(probe_moller_trumbore, "probe_moller_trumbore", MollerTrumbore);
 probe_triangle_test!(probe_watertight, "probe_watertight", Watertight);
+probe_triangle_test!(probe_baldwin_weber, "probe_baldwin_weber", BaldwinWeber);
+probe_triangle_test!(probe_plucker, "probe_plucker", Plucker);
 
 /// Of a triangle and a hit: where a ray starts that leaves on the side of +Z.
 #[spirv(compute(threads(64), entry_point_name = "probe_secondary_origin"))]

@@ -1,17 +1,17 @@
 //! The picture, and what each pixel sees.
 
-use glam::{UVec3, Vec2, Vec4, uvec2};
+use glam::{UVec3, UVec4, Vec2, Vec4, uvec2};
 use oktant_shared::frame::Frame;
+use oktant_shared::general::General;
 use oktant_shared::hit::Hit;
 use oktant_shared::light::Light;
 use oktant_shared::material::Material;
-use oktant_shared::octree::Node;
 use oktant_shared::plane::Plane;
 use oktant_shared::render::{Pixel, hit_pixel, render_pixel};
 use oktant_shared::scene::{Appearance, Scene, World};
 use oktant_shared::texture::Texture;
 use oktant_shared::traversal::Standard;
-use oktant_shared::triangle::{Triangle, Vertex};
+use oktant_shared::triangle::Vertex;
 use spirv_std::spirv;
 
 /// An entry point that looks at a pixel: `$of` makes a value from the frame, the world and the pixel, `$store` puts it
@@ -25,9 +25,10 @@ macro_rules! pixels {
         #[spirv(compute(threads(8, 8), entry_point_name = $entry))]
         pub fn $name(
             #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[Node],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[UVec4],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] references: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] triangles: &[Triangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] triangles: &[Vec4],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] ids: &[u32],
             #[spirv(uniform, descriptor_set = 1, binding = 0)] frame: &Frame,
             $(#[spirv(storage_buffer, descriptor_set = 2, binding = $binding)] $output: &mut [$kind],)+
             #[spirv(storage_buffer, descriptor_set = 3, binding = 0)] vertices: &[Vertex],
@@ -48,6 +49,8 @@ macro_rules! pixels {
                         nodes,
                         references,
                         triangles,
+                        ids,
+                        parts: frame.parts(),
                     },
                     appearance: Appearance {
                         vertices,
@@ -111,4 +114,12 @@ pixels!(
     hits,
     hit_pixel::<Standard>,
     { 0 hits: Hit } put
+);
+
+pixels!(
+    "As `render`, with the parts that the frame names.",
+    "render_general",
+    render_general,
+    render_pixel::<General, true>,
+    { 0 picture: Vec4, 1 work: Vec4 } add
 );

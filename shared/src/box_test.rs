@@ -8,6 +8,7 @@ pub use williams::Williams;
 
 use crate::aabb::Aabb;
 use crate::ray::PreparedRay;
+use crate::scene::Scene;
 
 /// The part of a ray inside a box, in the `t` of the prepared ray; empty where `enter > exit`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +33,12 @@ const FAR: f32 = 1.0e38;
 pub trait BoxTest: Copy {
     /// Does the work that is done once for each ray.
     fn prepare(ray: &PreparedRay) -> Self;
+
+    /// The same, where the scene has a say in it.
+    #[inline(always)]
+    fn prepare_in(_: &Scene<'_>, ray: &PreparedRay) -> Self {
+        Self::prepare(ray)
+    }
 
     /// Where the ray is inside the box, without regard to the ray's limits of `t`.
     fn interval(&self, aabb: &Aabb) -> Interval;

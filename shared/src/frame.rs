@@ -59,7 +59,16 @@ pub struct Frame {
 
 const _: () = assert!(size_of::<Frame>() == 304);
 
+/// From this bit on, [`Frame::features`] holds the number of the parts that rays are traced with.
+pub const PARTS_SHIFT: u32 = 24;
+
 impl Frame {
+    /// What [`crate::general::General`] is to be, see [`crate::parts::Parts::number`].
+    #[inline]
+    pub fn parts(&self) -> u32 {
+        self.features >> PARTS_SHIFT
+    }
+
     /// Width and height of the picture in pixels: the camera's, or twice as wide or high where the eyes have a half each.
     #[inline]
     pub fn size(&self) -> UVec2 {

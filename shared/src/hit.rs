@@ -1,6 +1,7 @@
 //! Where a ray met a triangle.
 
 use bytemuck::{Pod, Zeroable};
+use glam::{UVec4, uvec4};
 
 /// Stands for "no triangle" where a triangle id is expected.
 pub const NO_TRIANGLE: u32 = u32::MAX;
@@ -11,7 +12,8 @@ pub const NO_TRIANGLE: u32 = u32::MAX;
 pub struct Hit {
     /// Ray parameter in lengths of the ray's direction; the ray's `t_max` on a miss.
     pub t: f32,
-    /// Id of the triangle, its place in the mesh; [`NO_TRIANGLE`] on a miss. Of equal `t` the lowest id wins.
+    /// The triangle; [`NO_TRIANGLE`] on a miss. Its slot where a traversal found it, its id (place in the mesh) where a
+    /// back end reports it (see [`crate::scene::Scene::identified`]). Of equal `t` the lowest id wins.
     pub triangle: u32,
     /// Barycentric weight of the triangle's second vertex, 0 to 1; 0 on a miss.
     pub u: f32,
@@ -31,6 +33,12 @@ impl Hit {
             u: 0.0,
             v: 0.0,
         }
+    }
+
+    /// As a row of four words, see [`crate::triangle::Triangle`].
+    #[inline(always)]
+    pub fn row(&self) -> UVec4 {
+        uvec4(self.t.to_bits(), self.triangle, self.u.to_bits(), self.v.to_bits())
     }
 
     /// Whether a triangle was hit.

@@ -1,8 +1,10 @@
 //! The octree as flat arrays.
 
 use crate::aabb::Aabb;
+use crate::arithmetic::max_component;
+use crate::buffer::load;
 use bytemuck::{Pod, Zeroable};
-use glam::Vec3;
+use glam::{UVec4, Vec3};
 
 /// Deepest level a leaf may have; the root's is 0. The traversal's stack has one entry for each level above the leaves,
 /// and the planes of cells this deep are still exact in f32 (see [`Root`]).
@@ -27,6 +29,23 @@ pub struct Node {
 const _: () = assert!(size_of::<Node>() == 8);
 
 impl Node {
+    /// The node at `index` of those that lie two by two in the words of a structure.
+    #[inline]
+    pub fn at(nodes: &[UVec4], index: u32) -> Self {
+        let words = load(nodes, index >> 1);
+        if index & 1 == 0 {
+            Node {
+                first: words.x,
+                count: words.y,
+            }
+        } else {
+            Node {
+                first: words.z,
+                count: words.w,
+            }
+        }
+    }
+
     /// Whether the node has children rather than references.
     #[inline]
     pub fn is_inner(&self) -> bool {
@@ -34,9 +53,9 @@ impl Node {
     }
 }
 
-/// The cube around everything, and the raster of its smallest cells.
+/// The box around everything, and of an octree the raster of its smallest cells.
 ///
-/// All planes of all cells, `low + i * cell` for `0 <= i <= 2^depth`, are exact in f32, so that neighbours agree on
+/// An octree's is a cube. All planes of all cells, `low + i * cell` for `0 <= i <= 2^depth`, are exact in f32, so that neighbours agree on
 /// their common plane bit for bit. Every triangle lies inside by a margin that exceeds the traversal's rounding error.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -63,10 +82,10 @@ impl Root {
         }
     }
 
-    /// Edge length of the cube, scene units.
+    /// Length of the longest edge, scene units.
     #[inline]
     pub fn size(&self) -> f32 {
-        self.high.x - self.low.x
+        max_component(self.high - self.low)
     }
 }
 

@@ -1,8 +1,9 @@
 //! The ray, as it is given and as the traversal uses it.
 
 use crate::arithmetic::{is_finite, is_finite_vector, max, max_component};
+use crate::buffer::load;
 use bytemuck::{Pod, Zeroable};
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 /// Stands for an unbounded `t`. Not infinity, which naga rejects as a literal.
 pub const T_MAX: f32 = 3.0e38;
@@ -11,6 +12,8 @@ pub const T_MAX: f32 = 3.0e38;
 ///
 /// The direction need not have length 1: `t` counts in lengths of it. A ray with a component that is not finite, a limit
 /// that is NaN, or a direction whose largest component lies outside 2^-126 to 2^126 in size hits nothing.
+///
+/// Kernels read arrays of it as rows of four words, as those of [`crate::triangle::Triangle`].
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Ray {
@@ -35,6 +38,19 @@ impl Ray {
             t_min: 0.0,
             direction,
             t_max: T_MAX,
+        }
+    }
+
+    /// The ray at an index of those that lie in rows.
+    #[inline(always)]
+    pub fn of_rows(rows: &[Vec4], index: u32) -> Self {
+        let origin = load(rows, 2 * index);
+        let direction = load(rows, 2 * index + 1);
+        Ray {
+            origin: Vec3::new(origin.x, origin.y, origin.z),
+            t_min: origin.w,
+            direction: Vec3::new(direction.x, direction.y, direction.z),
+            t_max: direction.w,
         }
     }
 
@@ -74,12 +90,13 @@ impl PreparedRay {
         let largest = max_component(ray.direction.abs());
         let exponent = largest.to_bits() >> 23;
         let t_min = max(ray.t_min, 0.0);
+        // Without branches: on a GPU each `&&` is one.
         let valid = is_finite_vector(ray.origin)
-            && is_finite_vector(ray.direction)
-            && exponent.wrapping_sub(1) < 252
-            && is_number(ray.t_min)
-            && is_number(ray.t_max)
-            && t_min <= ray.t_max;
+            & is_finite_vector(ray.direction)
+            & (exponent.wrapping_sub(1) < 252)
+            & is_number(ray.t_min)
+            & is_number(ray.t_max)
+            & (t_min <= ray.t_max);
         // Clamped so that the shift below stays in range for rays that are not valid anyway.
         let exponent = if valid { exponent } else { 127 };
         let scale = f32::from_bits((254 - exponent) << 23);
@@ -107,7 +124,7 @@ fn significant(component: f32) -> f32 {
 /// Infinity is a fair limit for `t`, NaN is not.
 #[inline]
 fn is_number(x: f32) -> bool {
-    is_finite(x) || x.to_bits() & 0x007f_ffff == 0
+    is_finite(x) | (x.to_bits() & 0x007f_ffff == 0)
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use crate::frame::Frame;
 use crate::hit::Hit;
 use crate::medium::Media;
+use crate::plane::PLANE;
 use crate::ray::Ray;
 use crate::sampling::sample;
 use crate::scene::World;
@@ -89,5 +90,10 @@ fn first_surface<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> T
 
 /// What the first sample of this pass sees through a pixel.
 pub fn hit_pixel<V: Traversal>(frame: &Frame, world: &World<'_>, pixel: UVec2) -> Hit {
-    closest_hit::<V, true>(frame, world, &sample_ray(frame, pixel, frame.first_sample))
+    let hit = closest_hit::<V, true>(frame, world, &sample_ray(frame, pixel, frame.first_sample));
+    if hit.triangle & PLANE != 0 {
+        hit
+    } else {
+        world.scene.identified(hit)
+    }
 }

@@ -1,15 +1,11 @@
 //! The parametric octree traversal.
 
-use crate::arithmetic::{fused_multiply_add_vector, max, max_component, min_component};
-use crate::box_test::{BoxTest, Interval};
-use crate::buffer::load;
-use crate::hit::{Hit, NO_TRIANGLE};
+use crate::arithmetic::{max, max_component, min_component};
+use crate::buffer::{get, put};
+use crate::entered::Entered;
 use crate::octree::{MAX_DEPTH, Node};
-use crate::ray::{PreparedRay, Ray};
 use crate::scene::Scene;
-use crate::traversal::Traversal;
-use crate::triangle_test::TriangleTest;
-use core::marker::PhantomData;
+use crate::walk::{self, Along, List};
 use glam::{UVec3, Vec3};
 
 /// J. Revelles, C. Urena, M. Lastra, "An efficient parametric algorithm for octree traversal", WSCG 2000, with the box
@@ -26,100 +22,7 @@ use glam::{UVec3, Vec3};
 /// - The search ends only when the nearest hit lies before the exit of the cell, for triangles reach beyond it.
 /// - A ray from afar is traced from shortly before the root, so that `t` resolves the cells.
 /// - No recursion: the path is the integer place of the cell, and the stack holds just the children's indices.
-pub struct Revelles<B, T>(PhantomData<(B, T)>);
-
-impl<B: BoxTest, T: TriangleTest> Traversal for Revelles<B, T> {
-    fn closest_hit(scene: &Scene<'_>, ray: &Ray) -> Hit {
-        let entered = Entered::new::<B>(scene, ray);
-        let mut best = Hit::miss(entered.ray.t_max);
-        if entered.inside {
-            let test = T::prepare(&entered.ray);
-            let mut walk = Walk::new(scene, &entered);
-            while walk.inside {
-                let node = walk.leaf(scene);
-                for i in node.first..node.first + node.count {
-                    let id = load(scene.references, i);
-                    let crossing = test.crossing(&load(scene.triangles, id));
-                    let nearer = crossing.t < best.t || (crossing.t == best.t && id < best.triangle);
-                    if crossing.crosses && crossing.t >= entered.ray.t_min && nearer {
-                        best = Hit {
-                            t: crossing.t,
-                            triangle: id,
-                            u: crossing.u,
-                            v: crossing.v,
-                        };
-                    }
-                }
-                walk.leave(best.t);
-            }
-        }
-        if best.triangle == NO_TRIANGLE {
-            Hit::miss(ray.t_max)
-        } else {
-            Hit {
-                t: (best.t + entered.advance) * entered.ray.scale,
-                ..best
-            }
-        }
-    }
-
-    fn any_hit(scene: &Scene<'_>, ray: &Ray) -> bool {
-        let entered = Entered::new::<B>(scene, ray);
-        let mut found = false;
-        if entered.inside {
-            let test = T::prepare(&entered.ray);
-            let mut walk = Walk::new(scene, &entered);
-            while walk.inside && !found {
-                let node = walk.leaf(scene);
-                for i in node.first..node.first + node.count {
-                    let id = load(scene.references, i);
-                    let crossing = test.crossing(&load(scene.triangles, id));
-                    found = found
-                        || (crossing.crosses && crossing.t >= entered.ray.t_min && crossing.t <= entered.ray.t_max);
-                }
-                walk.leave(entered.ray.t_max);
-            }
-        }
-        found
-    }
-}
-
-/// A ray at the root's face.
-struct Entered {
-    /// The prepared ray, its origin advanced to shortly before the root.
-    ray: PreparedRay,
-    /// By how much the origin was advanced, in the prepared `t`.
-    advance: f32,
-    /// Whether the ray meets the root within its limits.
-    inside: bool,
-}
-
-/// Of the way to the root, the part that is not advanced: above the rounding error of the root's entry.
-const KEPT_BACK: f32 = 1.0 / (1 << 20) as f32;
-
-/// A ray that reaches the root within so many of its edge lengths is not advanced: its `t` resolves the cells anyway,
-/// and a ray exactly through an edge stays so, where an advanced origin would be rounded off it.
-const NEARBY: f32 = 4.0;
-
-impl Entered {
-    #[inline(always)]
-    fn new<B: BoxTest>(scene: &Scene<'_>, ray: &Ray) -> Self {
-        let mut ray = PreparedRay::new(ray);
-        let Interval { enter, exit } = B::prepare(&ray).interval(&scene.root.aabb());
-        let inside = ray.valid && enter <= exit && exit >= ray.t_min && enter * (1.0 - KEPT_BACK) <= ray.t_max;
-        // The prepared direction is 1 to 2 long along its main axis.
-        let advance = if inside && enter > NEARBY * (scene.root.high.x - scene.root.low.x) {
-            enter * (1.0 - KEPT_BACK)
-        } else {
-            0.0
-        };
-        // Rounded once, the new origin is on the ray to the last place even if the old one is far away.
-        ray.origin = fused_multiply_add_vector(advance, ray.direction, ray.origin);
-        ray.t_min = max(ray.t_min - advance, 0.0);
-        ray.t_max -= advance;
-        Entered { ray, advance, inside }
-    }
-}
+pub type Revelles<B, T> = Along<Walk, B, T>;
 
 /// Direction components smaller than this count as this for finding cells.
 const LEAST_SLOPE: f32 = 7.888_609e-31; // 2^-100
@@ -128,7 +31,7 @@ const LEAST_SLOPE: f32 = 7.888_609e-31; // 2^-100
 ///
 /// Places are counted in smallest cells from the corner of the root that the ray moves away from, so that along every
 /// axis places and `t` grow together.
-struct Walk {
+pub struct Walk {
     origin: Vec3,
     reciprocal: Vec3,
     /// Where place 0 is, scene units.
@@ -152,7 +55,9 @@ struct Walk {
     inside: bool,
 }
 
-impl Walk {
+impl walk::Walk for Walk {
+    type Leaf = List;
+
     #[inline(always)]
     fn new(scene: &Scene<'_>, entered: &Entered) -> Self {
         let root = &scene.root;
@@ -182,27 +87,24 @@ impl Walk {
             node: 0,
             enter: 0.0,
             stack: [0; MAX_DEPTH as usize],
-            inside: true,
+            inside: entered.inside,
         };
         walk.enter = max(max_component(walk.crossings(UVec3::ZERO)), entered.ray.t_min);
         walk
     }
 
-    /// Where the ray crosses the three planes through a place.
     #[inline(always)]
-    fn crossings(&self, place: UVec3) -> Vec3 {
-        // Exact: the planes of all cells are (see `Root`).
-        let plane = self.start + self.step * Vec3::new(place.x as f32, place.y as f32, place.z as f32);
-        (plane - self.origin) * self.reciprocal
+    fn goes_on(&self) -> bool {
+        self.inside
     }
 
     /// Goes down to the leaf at the place where the ray enters the current cell.
     #[inline(always)]
-    fn leaf(&mut self, scene: &Scene<'_>) -> Node {
-        let mut node = load(scene.nodes, self.node);
+    fn leaf(&mut self, scene: &Scene<'_>, _: f32) -> List {
+        let mut node = Node::at(scene.nodes, self.node);
         while node.is_inner() {
             self.size -= 1;
-            self.stack[self.size as usize] = node.first;
+            put(&mut self.stack, self.size, node.first);
             let half = 1 << self.size;
             let middle = self.crossings(self.place + UVec3::splat(half));
             let x = middle.x <= self.enter;
@@ -214,9 +116,12 @@ impl Walk {
                 if z { half } else { 0 },
             );
             self.node = node.first + (bits(x, y, z) ^ self.mirrored);
-            node = load(scene.nodes, self.node);
+            node = Node::at(scene.nodes, self.node);
         }
-        node
+        List {
+            next: node.first,
+            end: node.first + node.count,
+        }
     }
 
     /// Leaves the current leaf for the next cell on the way, unless the ray ends before at `limit`.
@@ -249,8 +154,18 @@ impl Walk {
                 self.place.y >> size & 1 == 1,
                 self.place.z >> size & 1 == 1,
             );
-            self.node = self.stack[size as usize] + (child ^ self.mirrored);
+            self.node = get(&self.stack, size) + (child ^ self.mirrored);
         }
+    }
+}
+
+impl Walk {
+    /// Where the ray crosses the three planes through a place.
+    #[inline(always)]
+    fn crossings(&self, place: UVec3) -> Vec3 {
+        // Exact: the planes of all cells are (see `Root`).
+        let plane = self.start + self.step * Vec3::new(place.x as f32, place.y as f32, place.z as f32);
+        (plane - self.origin) * self.reciprocal
     }
 }
 
@@ -260,8 +175,9 @@ fn bits(x: bool, y: bool, z: bool) -> u32 {
     (if x { 1 } else { 0 }) | (if y { 2 } else { 0 }) | (if z { 4 } else { 0 })
 }
 
+/// The reciprocal of a direction's component for finding cells; zero counts as a tiny positive one.
 #[inline]
-fn reciprocal(component: f32) -> f32 {
+pub(crate) fn reciprocal(component: f32) -> f32 {
     if component.abs() < LEAST_SLOPE {
         1.0 / LEAST_SLOPE
     } else {

@@ -88,7 +88,7 @@ impl Passage {
                 material_id: plane.material,
             }
         } else {
-            let triangle = load(world.scene.triangles, hit.triangle);
+            let triangle = Triangle::at(world.scene.triangles, hit.triangle);
             let face = faced(&triangle, ray);
             let (point, clearance) = surface_point(&triangle, hit, face);
             let from_front = face.dot(ray.direction) <= 0.0;
@@ -140,7 +140,7 @@ fn faced(triangle: &Triangle, ray: &Ray) -> Vec3 {
 
 fn on_triangle<const FULL: bool>(frame: &Frame, world: &World<'_>, ray: &Ray, hit: &Hit, view: Vec3) -> Surface {
     let appearance = &world.appearance;
-    let triangle = load(world.scene.triangles, hit.triangle);
+    let triangle = Triangle::at(world.scene.triangles, hit.triangle);
     let material_id = if FULL {
         load(appearance.material_ids, hit.triangle)
     } else {

@@ -3,7 +3,7 @@
 use crate::buffer::load;
 use crate::frame::Frame;
 use crate::hit::Hit;
-use crate::plane::PLANE;
+use crate::plane::{PLANE, Plane};
 use crate::ray::Ray;
 use crate::scene::World;
 use crate::traversal::Traversal;
@@ -15,13 +15,25 @@ pub fn closest_hit<V: Traversal, const FULL: bool>(frame: &Frame, world: &World<
         return V::closest_hit(&world.scene, ray);
     }
     // Planes first: beyond them no triangle needs to be looked for.
-    let mut plane = Hit::miss(ray.t_max);
+    let plane = nearest_plane(world.appearance.planes, frame.plane_count, ray);
+    let hit = V::closest_hit(&world.scene, &Ray { t_max: plane.t, ..*ray });
+    if hit.is_hit() { hit } else { plane }
+}
+
+/// The nearest hit on the first `count` planes; a miss has the ray's `t_max`.
+#[inline]
+pub fn nearest_plane(planes: &[Plane], count: u32, ray: &Ray) -> Hit {
+    let mut nearest = Hit::miss(ray.t_max);
     let mut i = 0;
-    while i < frame.plane_count {
-        let t = load(world.appearance.planes, i).crossing(ray);
-        let is_nearer = if plane.is_hit() { t < plane.t } else { t <= plane.t };
+    while i < count {
+        let t = load(planes, i).crossing(ray);
+        let is_nearer = if nearest.is_hit() {
+            t < nearest.t
+        } else {
+            t <= nearest.t
+        };
         if t >= 0.0 && t >= ray.t_min && is_nearer {
-            plane = Hit {
+            nearest = Hit {
                 t,
                 triangle: PLANE | i,
                 u: 0.0,
@@ -30,8 +42,7 @@ pub fn closest_hit<V: Traversal, const FULL: bool>(frame: &Frame, world: &World<
         }
         i += 1;
     }
-    let hit = V::closest_hit(&world.scene, &Ray { t_max: plane.t, ..*ray });
-    if hit.is_hit() { hit } else { plane }
+    nearest
 }
 
 /// Whether there is a hit. With `FULL` false there are no planes.

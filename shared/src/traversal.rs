@@ -1,9 +1,8 @@
 //! Ray against scene: the interface.
 
-use crate::box_test::KayKajiya;
 use crate::hit::Hit;
+use crate::octants::Octants;
 use crate::ray::Ray;
-use crate::revelles::Revelles;
 use crate::scene::Scene;
 use crate::triangle_test::Watertight;
 
@@ -19,4 +18,4 @@ pub trait Traversal {
 }
 
 /// The combination that oktant renders with.
-pub type Standard = Revelles<KayKajiya, Watertight>;
+pub type Standard = Octants<Watertight>;

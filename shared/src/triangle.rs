@@ -1,10 +1,14 @@
 //! The triangle as the kernel reads it.
 
+use crate::buffer::load;
 use bytemuck::{Pod, Zeroable};
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 /// A triangle: its corners, and where their attributes lie. Counter-clockwise seen from outside.
-#[repr(C)]
+///
+/// Kernels read it as three rows of four words: rust-gpu loads a structure field by field, which takes twice as many
+/// instructions.
+#[repr(C, align(16))]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Triangle {
     /// First corner, scene units.
@@ -36,6 +40,22 @@ pub struct Vertex {
 const _: () = assert!(size_of::<Vertex>() == 16);
 
 impl Triangle {
+    /// The triangle at a slot of those that lie in rows.
+    #[inline(always)]
+    pub fn at(rows: &[Vec4], slot: u32) -> Self {
+        let a = load(rows, 3 * slot);
+        let b = load(rows, 3 * slot + 1);
+        let c = load(rows, 3 * slot + 2);
+        Triangle {
+            a: Vec3::new(a.x, a.y, a.z),
+            vertex_a: a.w.to_bits(),
+            b: Vec3::new(b.x, b.y, b.z),
+            vertex_b: b.w.to_bits(),
+            c: Vec3::new(c.x, c.y, c.z),
+            vertex_c: c.w.to_bits(),
+        }
+    }
+
     /// The point with barycentric weights `1 - u - v`, `u`, `v`, in scene units.
     pub fn point(&self, u: f32, v: f32) -> Vec3 {
         self.a + (self.b - self.a) * u + (self.c - self.a) * v

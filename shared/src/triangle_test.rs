@@ -1,12 +1,17 @@
 //! Ray against triangle: the interface, and one file for each test.
 
+mod baldwin_weber;
 mod moller_trumbore;
+mod plucker;
 mod watertight;
 
+pub use baldwin_weber::{BaldwinWeber, TriangleTransform};
 pub use moller_trumbore::MollerTrumbore;
+pub use plucker::Plucker;
 pub use watertight::Watertight;
 
 use crate::ray::PreparedRay;
+use crate::scene::Scene;
 use crate::triangle::Triangle;
 
 /// What a triangle test finds.
@@ -32,6 +37,19 @@ impl Crossing {
     };
 }
 
+/// What a test of up to four triangles finds, lane by lane.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Crossings {
+    /// Bit for each triangle that the line crosses.
+    pub crosses: u32,
+    /// See [`Crossing::t`].
+    pub t: [f32; 4],
+    /// See [`Crossing::u`].
+    pub u: [f32; 4],
+    /// See [`Crossing::v`].
+    pub v: [f32; 4],
+}
+
 /// A line against triangles: two-sided, edges and corners included, no absolute epsilon.
 ///
 /// A triangle without area and a line in the triangle's plane do not cross. The limits of the ray's `t` are the
@@ -40,8 +58,38 @@ pub trait TriangleTest: Copy {
     /// Does the work that is done once for each ray.
     fn prepare(ray: &PreparedRay) -> Self;
 
+    /// The same, where the scene has a say in it.
+    #[inline(always)]
+    fn prepare_in(_: &Scene<'_>, ray: &PreparedRay) -> Self {
+        Self::prepare(ray)
+    }
+
     /// Whether, and where, the line crosses the triangle.
     fn crossing(&self, triangle: &Triangle) -> Crossing;
+
+    /// The same of the triangle at a slot of a scene.
+    #[inline(always)]
+    fn crossing_at(&self, scene: &Scene<'_>, slot: u32) -> Crossing {
+        self.crossing(&Triangle::at(scene.triangles, slot))
+    }
+
+    /// The same of the triangles at the first `count` of four slots, bit for bit; nothing is said of the other lanes.
+    ///
+    /// # Safety
+    /// The processor has AVX2, and all four slots are in range.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    unsafe fn crossings_at(&self, scene: &Scene<'_>, slots: [u32; 4], count: u32) -> Crossings {
+        let mut crossings = Crossings::default();
+        for (lane, slot) in slots.into_iter().enumerate().take(count as usize) {
+            let crossing = self.crossing_at(scene, slot);
+            crossings.crosses |= u32::from(crossing.crosses) << lane;
+            crossings.t[lane] = crossing.t;
+            crossings.u[lane] = crossing.u;
+            crossings.v[lane] = crossing.v;
+        }
+        crossings
+    }
 }
 
 #[cfg(test)]

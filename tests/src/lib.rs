@@ -7,5 +7,7 @@ pub mod images;
 pub mod meshes;
 pub mod program;
 pub mod ray_classes;
+pub mod spirv;
 pub mod stage;
+pub mod subject;
 pub mod tally;

@@ -7,10 +7,10 @@ use oktant::backend::cpu::Cpu;
 use oktant::media::media_at;
 use oktant::mesh::Mesh;
 use oktant::model::Model;
-use oktant::octree::OctreeOptions;
 use oktant::picture::Picture;
 use oktant::progress::silent;
 use oktant::scene::Scene;
+use oktant::structure::StructureOptions;
 use oktant_shared::camera::Camera;
 use oktant_shared::environment::Environment;
 use oktant_shared::frame::{Frame, TRANSPARENT};
@@ -171,7 +171,7 @@ impl Stage {
     /// # Panics
     /// Where the model is not valid.
     pub fn build(self) -> Arc<Scene> {
-        let scene = Scene::of_model(self.model, &OctreeOptions::default(), &silent);
+        let scene = Scene::of_model(self.model, &StructureOptions::default(), &silent);
         Arc::new(scene.expect("the model of a test is valid"))
     }
 }

@@ -259,7 +259,7 @@ fn info_has_the_figures() {
     for word in [
         "69451 (0 without area",
         "box ",
-        "octree ",
+        "structure    octants, ",
         "nodes ",
         "per triangle",
         "leaves ",

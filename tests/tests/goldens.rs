@@ -8,10 +8,10 @@ use image::RgbImage;
 use oktant::backend::Backend;
 use oktant::backend::cpu::Cpu;
 use oktant::backend::gpu::{Gpu, GpuBackend, GpuOptions, ModulePath};
-use oktant::octree::OctreeOptions;
 use oktant::progress::silent;
 use oktant::scene::Scene;
 use oktant::source::Source;
+use oktant::structure::StructureOptions;
 use oktant::view::View;
 use oktant_shared::whitted::MAX_DEPTH;
 use oktant_tests::images::{CPU, Tolerance, compared, difference};
@@ -47,7 +47,7 @@ fn scenes() -> Vec<PathBuf> {
 /// Renders a scene file at the size of the goldens, its tree of rays no deeper than said.
 fn picture(path: &Path, most_depth: u32, backend: impl FnOnce(&Arc<Scene>) -> Box<dyn Backend>) -> RgbImage {
     let setting = Source::from_path(path.to_path_buf()).load(&silent).unwrap();
-    let scene = Arc::new(Scene::of_model(setting.model, &OctreeOptions::default(), &silent).unwrap());
+    let scene = Arc::new(Scene::of_model(setting.model, &StructureOptions::default(), &silent).unwrap());
     let view = View {
         depth: setting.view.depth.min(most_depth),
         ..setting.view
@@ -89,7 +89,11 @@ fn the_cpu_renders_the_goldens() {
 }
 
 fn gpu(module: ModulePath) -> Arc<Gpu> {
-    let options = GpuOptions { software: true, module };
+    let options = GpuOptions {
+        software: true,
+        module,
+        ..GpuOptions::default()
+    };
     Arc::new(Gpu::open(&options).unwrap())
 }
 

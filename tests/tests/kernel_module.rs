@@ -35,6 +35,7 @@ fn manifest_describes_the_module() {
     let (manifest, module) = committed();
     assert_eq!(manifest.sha256, sha256(&module));
     manifest.check_module(&module).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(manifest.bindings, oktant_shared::bindings::BINDINGS);
 }
 
 #[test]

@@ -8,9 +8,9 @@ use oktant::backend::cpu::Cpu;
 use oktant::backend::gpu::{Gpu, GpuBackend, GpuOptions};
 use oktant::mesh::Mesh;
 use oktant::mesh_source::MeshSource;
-use oktant::octree::OctreeOptions;
 use oktant::progress::silent;
 use oktant::scene::Scene;
+use oktant::structure::StructureOptions;
 use oktant::view::{Place, View};
 use oktant_shared::hit::Hit;
 use oktant_shared::normal::face_normal;
@@ -49,7 +49,7 @@ fn isolated_background(hits: &[Hit]) -> usize {
 
 fn no_isolated_background(backend_of: impl Fn(&Arc<Scene>) -> Box<dyn Backend>) {
     for (name, mesh) in closed_meshes() {
-        let scene = Arc::new(Scene::new(&mesh, &OctreeOptions::default(), &silent).unwrap());
+        let scene = Arc::new(Scene::new(&mesh, &StructureOptions::default(), &silent).unwrap());
         let mut backend = backend_of(&scene);
         for (azimuth, elevation, distance) in [(0.0, 0.0, 2.6), (45.0, 35.0, 1.8), (200.0, -20.0, 40.0)] {
             let view = View {
@@ -105,7 +105,7 @@ fn the_count_of_isolated_pixels_can_fail() {
 /// Of rays that leave a convex mesh outwards, how many meet it again, and the largest distance by which an origin was
 /// moved, in lengths of the triangle's edges. Hits come from rays aimed at the mesh from `distance` radii away.
 fn returned(mesh: &Mesh, distance: f32, count: usize) -> (usize, f32) {
-    let scene = Scene::new(mesh, &OctreeOptions::default(), &silent).unwrap();
+    let scene = Scene::new(mesh, &StructureOptions::default(), &silent).unwrap();
     let (center, radius) = (scene.center(), scene.radius());
     let view = scene.view();
     (0..count)

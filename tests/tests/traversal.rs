@@ -1,23 +1,17 @@
-//! The octree traversal against the oracle: 13 classes of rays on six meshes.
+//! The standard traversal against the oracle, at length: 13 classes of rays on six meshes. `parts` holds all that is
+//! offered against it.
 
 #![cfg(test)]
 
-use oktant::mesh::Mesh;
-use oktant::mesh_source::MeshSource;
-use oktant::octree::OctreeOptions;
-use oktant::oracle::Oracle;
-use oktant::oracle::judge::{Answer, Verdict, judge_any, judge_closest};
-use oktant::progress::silent;
-use oktant::scene::Scene;
-use oktant_shared::box_test::{KayKajiya, Williams};
-use oktant_shared::ray::Ray;
+use oktant_shared::box_test::KayKajiya;
+use oktant_shared::octree::INNER;
+use oktant_shared::parts::TraversalKind;
 use oktant_shared::revelles::Revelles;
-use oktant_shared::traversal::{Standard, Traversal};
-use oktant_shared::triangle_test::{MollerTrumbore, Watertight};
-use oktant_tests::meshes;
-use oktant_tests::ray_classes::{CellGrid, RayClass, for_oracle, rays};
+use oktant_shared::traversal::Standard;
+use oktant_shared::triangle_test::Watertight;
+use oktant_tests::ray_classes::RayClass;
+use oktant_tests::subject::Subject;
 use oktant_tests::tally::Tally;
-use rayon::prelude::*;
 
 /// Rays of each class on each mesh.
 const RAYS: usize = 100_000;
@@ -28,94 +22,6 @@ const OVERLOOKED: f64 = 1e-6;
 /// Of all rays, how many may differ from the oracle in any way within the f32 error. Most find something nearer: edges
 /// of a closed surface belong to both neighbours, and the classes aim at edges on purpose.
 const EXCUSED: f64 = 2e-5;
-
-struct Stage {
-    name: &'static str,
-    mesh: Mesh,
-    scene: Scene,
-    oracle: Oracle,
-}
-
-fn stages() -> Vec<Stage> {
-    let bunny = MeshSource::Bunny.load(&silent).unwrap();
-    [
-        ("bunny", bunny),
-        ("fan", meshes::fan_64()),
-        ("flat grid", meshes::flat_grid(32)),
-        ("soup", meshes::soup(1_000, 1)),
-        ("room", meshes::room()),
-        ("icosphere", meshes::icosphere(5)),
-    ]
-    .into_iter()
-    .map(|(name, mesh)| Stage {
-        name,
-        scene: Scene::new(&mesh, &OctreeOptions::default(), &silent).unwrap(),
-        oracle: Oracle::new(&mesh),
-        mesh,
-    })
-    .collect()
-}
-
-impl Stage {
-    fn rays(&self, class: RayClass, count: usize) -> Vec<Ray> {
-        let root = &self.scene.root;
-        let cells = CellGrid {
-            low: root.low,
-            size: root.size(),
-            depth: root.depth,
-        };
-        rays(class, &self.mesh, &cells, count, u64::from(class.number()))
-    }
-
-    fn closest<V: Traversal>(&self, rays: &[Ray]) -> Tally {
-        self.tally(rays, |ray| {
-            let hit = V::closest_hit(&self.scene.view(), ray);
-            let answer = hit.is_hit().then(|| Answer {
-                triangle: hit.triangle,
-                t: f64::from(hit.t),
-            });
-            judge_closest(&self.oracle, &for_oracle(ray), answer)
-        })
-    }
-
-    fn any<V: Traversal>(&self, rays: &[Ray]) -> Tally {
-        self.tally(rays, |ray| {
-            judge_any(&self.oracle, &for_oracle(ray), V::any_hit(&self.scene.view(), ray))
-        })
-    }
-
-    fn tally(&self, rays: &[Ray], judge: impl Fn(&Ray) -> Verdict + Sync + Send) -> Tally {
-        rays.par_iter().map(judge).collect::<Vec<_>>().into_iter().collect()
-    }
-
-    /// The rays with limits of `t` about their hits: half of them end before it, half begin or end behind.
-    fn limited(&self, rays: &[Ray]) -> Vec<Ray> {
-        rays.par_iter()
-            .enumerate()
-            .map(|(index, ray)| {
-                let Some(hit) = self.oracle.closest(&for_oracle(ray)) else {
-                    return *ray;
-                };
-                let t = hit.t as f32;
-                match index % 4 {
-                    0 => Ray { t_max: t * 0.5, ..*ray },
-                    1 => Ray {
-                        t_max: t * 0.99,
-                        ..*ray
-                    },
-                    2 => Ray {
-                        t_max: t * 1.01,
-                        ..*ray
-                    },
-                    _ => Ray {
-                        t_min: t * 1.01,
-                        ..*ray
-                    },
-                }
-            })
-            .collect()
-    }
-}
 
 #[test]
 fn the_standard_traversal_equals_the_oracle() {
@@ -132,20 +38,18 @@ fn the_standard_traversal_equals_the_oracle() {
             wrong += tally.wrong();
         }
     };
-    for stage in stages() {
+    for subject in Subject::all() {
+        let scene = subject.scene(TraversalKind::default());
         for class in RayClass::ALL {
-            let rays = stage.rays(class, RAYS);
+            let rays = subject.rays(class, RAYS);
             assert!(rays.len() >= RAYS);
-            count(stage.name, class, "closest", stage.closest::<Standard>(&rays));
-            count(stage.name, class, "any", stage.any::<Standard>(&rays));
-            let limited = stage.limited(&rays[..RAYS / 4]);
-            count(
-                stage.name,
-                class,
-                "closest, limited",
-                stage.closest::<Standard>(&limited),
-            );
-            count(stage.name, class, "any, limited", stage.any::<Standard>(&limited));
+            let [closest, any] = subject.judge::<Standard>(&scene, &rays);
+            count(subject.name, class, "closest", closest);
+            count(subject.name, class, "any", any);
+            let limited = subject.limited(&rays[..RAYS / 4]);
+            let [closest, any] = subject.judge::<Standard>(&scene, &limited);
+            count(subject.name, class, "closest, limited", closest);
+            count(subject.name, class, "any, limited", any);
         }
     }
     println!(
@@ -157,49 +61,27 @@ fn the_standard_traversal_equals_the_oracle() {
     assert!(excused as f64 <= EXCUSED * total as f64);
 }
 
-/// Every combination of parts goes through the same; Moller-Trumbore leaks at edges by nature, so its counts are bounded
-/// rather than zero.
-#[test]
-fn every_combination_of_parts_equals_the_oracle() {
-    fn check<V: Traversal>(stage: &Stage, parts: &str, watertight: bool) {
-        for class in RayClass::ALL {
-            let rays = stage.rays(class, RAYS / 10);
-            let (closest, any) = (stage.closest::<V>(&rays), stage.any::<V>(&rays));
-            let off = closest.wrong() + any.wrong();
-            if off > 0 {
-                println!(
-                    "{}, {parts}, class {} ({}): closest {closest}; any {any}",
-                    stage.name,
-                    class.number(),
-                    class.name()
-                );
-            }
-            if class != RayClass::AimedVeryFar {
-                let bound = if watertight { 0 } else { rays.len() / 100 };
-                assert!(off <= bound, "{}, {parts}, class {}", stage.name, class.number());
-            }
-        }
-    }
-    for stage in stages() {
-        check::<Revelles<KayKajiya, Watertight>>(&stage, "Kay-Kajiya, watertight", true);
-        check::<Revelles<Williams, Watertight>>(&stage, "Williams, watertight", true);
-        check::<Revelles<KayKajiya, MollerTrumbore>>(&stage, "Kay-Kajiya, Moller-Trumbore", false);
-        check::<Revelles<Williams, MollerTrumbore>>(&stage, "Williams, Moller-Trumbore", false);
-    }
-}
-
 /// The suite must be able to fail: a traversal that stops at the first leaf with a hit, or one that forgets triangles.
 #[test]
 fn the_suite_notices_a_lost_reference() {
-    let mut stage = stages().swap_remove(5);
-    let rays = stage.rays(RayClass::AimedNear, 10_000);
-    assert_eq!(stage.closest::<Standard>(&rays).wrong(), 0);
+    type Thesis = Revelles<KayKajiya, Watertight>;
+    let subject = Subject::all().swap_remove(5);
+    let mut scene = subject.scene(TraversalKind::Octree);
+    let rays = subject.rays(RayClass::AimedNear, 10_000);
+    assert_eq!(
+        subject.judge::<Thesis>(&scene, &rays).map(|tally| tally.wrong()),
+        [0, 0]
+    );
     // All leaves forget their first reference.
-    for node in &mut stage.scene.nodes {
-        if !node.is_inner() && node.count > 0 {
-            node.first += 1;
-            node.count -= 1;
+    for words in &mut scene.nodes {
+        if words.y != INNER && words.y > 0 {
+            words.x += 1;
+            words.y -= 1;
+        }
+        if words.w != INNER && words.w > 0 {
+            words.z += 1;
+            words.w -= 1;
         }
     }
-    assert!(stage.closest::<Standard>(&rays).wrong() > 100);
+    assert!(subject.judge::<Thesis>(&scene, &rays)[0].wrong() > 100);
 }

@@ -12,10 +12,10 @@ use oktant::balls::balls;
 use oktant::mesh::Mesh;
 use oktant::mesh_source::MeshSource;
 use oktant::model::Model;
-use oktant::octree::OctreeOptions;
 use oktant::progress::silent;
 use oktant::sampling::Samples;
 use oktant::scene::Scene;
+use oktant::structure::StructureOptions;
 use oktant::view::{Place, Shading, View};
 use oktant_shared::aabb::Aabb;
 use oktant_shared::arithmetic::{difference_of_products, fused_multiply_add, min, multiply_subtract};
@@ -26,13 +26,18 @@ use oktant_shared::plane::Plane;
 use oktant_shared::ray::{PreparedRay, Ray};
 use oktant_shared::secondary_origin::secondary_origin;
 use oktant_shared::triangle::Triangle;
-use oktant_shared::triangle_test::{MollerTrumbore, TriangleTest, Watertight};
+use oktant_shared::triangle_test::{BaldwinWeber, MollerTrumbore, Plucker, TriangleTest, Watertight};
 use oktant_tests::compare::{ColorDifferences, HitDifferences};
 use oktant_tests::data::reference;
 use std::sync::Arc;
 
 fn open(module: ModulePath) -> Arc<Gpu> {
-    let gpu = Gpu::open(&GpuOptions { software: true, module }).expect("a Vulkan driver is installed");
+    let gpu = Gpu::open(&GpuOptions {
+        software: true,
+        module,
+        ..GpuOptions::default()
+    })
+    .expect("a Vulkan driver is installed");
     println!("{}, passed through: {}", gpu.name, gpu.passthrough);
     Arc::new(gpu)
 }
@@ -62,7 +67,7 @@ fn views() -> [View; 3] {
 }
 
 fn sides_agree(name: &str, mesh: &Mesh, module: ModulePath) {
-    let scene = Arc::new(Scene::new(mesh, &OctreeOptions::default(), &silent).unwrap());
+    let scene = Arc::new(Scene::new(mesh, &StructureOptions::default(), &silent).unwrap());
     let mut cpu = Cpu::new(scene.clone());
     let mut gpu = GpuBackend::new(open(module), &scene).unwrap();
     for (index, view) in views().iter().enumerate() {
@@ -111,7 +116,7 @@ fn dragon_through_naga() {
 #[test]
 #[ignore = "needs a Vulkan driver"]
 fn every_pixel_is_written_at_any_size() {
-    let scene = Arc::new(Scene::new(&balls(), &OctreeOptions::default(), &silent).unwrap());
+    let scene = Arc::new(Scene::new(&balls(), &StructureOptions::default(), &silent).unwrap());
     let mut cpu = Cpu::new(scene.clone());
     let mut gpu = GpuBackend::new(open(ModulePath::Auto), &scene).unwrap();
     for (width, height) in [(1, 1), (7, 3), (65, 33), (200, 151)] {
@@ -140,7 +145,7 @@ fn every_pixel_is_written_at_any_size() {
 fn pictures_in_bands_have_no_seams() {
     let mut model = Model::of_mesh(balls());
     model.planes.push(Plane::new(Vec3::ZERO, Vec3::Y, 0));
-    let scene = Arc::new(Scene::of_model(model, &OctreeOptions::default(), &silent).unwrap());
+    let scene = Arc::new(Scene::of_model(model, &StructureOptions::default(), &silent).unwrap());
     let view = View {
         samples: Samples::Four,
         ..View::default()
@@ -172,7 +177,7 @@ fn colors_of_vertices_reach_the_picture() {
 #[test]
 #[ignore = "needs a Vulkan driver"]
 fn what_does_not_fit_is_refused_in_a_sentence() {
-    let scene = Scene::new(&balls(), &OctreeOptions::default(), &silent).unwrap();
+    let scene = Scene::new(&balls(), &StructureOptions::default(), &silent).unwrap();
     let gpu = open(ModulePath::Auto);
     let mut backend = GpuBackend::new(gpu, &scene).unwrap();
     // 16 bytes a pixel: more than any device binds.
@@ -314,6 +319,18 @@ fn moller_trumbore_probe() {
 #[ignore = "needs a Vulkan driver"]
 fn watertight_probe() {
     triangle_probe::<Watertight>("probe_watertight");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver"]
+fn baldwin_weber_probe() {
+    triangle_probe::<BaldwinWeber>("probe_baldwin_weber");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver"]
+fn plucker_probe() {
+    triangle_probe::<Plucker>("probe_plucker");
 }
 
 #[test]

@@ -1,21 +1,21 @@
 //! The CPU back end: the kernel's body, compiled natively.
 
-use super::{Backend, BackendError, Parts, Query};
+use super::{Backend, BackendError, Query};
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use glam::{UVec2, uvec2};
-use oktant_shared::box_test::{KayKajiya, Williams};
 use oktant_shared::frame::Frame;
+use oktant_shared::general::General;
 use oktant_shared::hit::Hit;
+use oktant_shared::parts::{BoxKind, Parts, TraversalKind, TriangleKind};
 use oktant_shared::ray::Ray;
 use oktant_shared::render::{hit_pixel, render_pixel};
-use oktant_shared::revelles::Revelles;
 use oktant_shared::traversal::{Standard, Traversal};
-use oktant_shared::triangle_test::{MollerTrumbore, Watertight};
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::time::Instant;
 
 /// Renders with all threads of rayon's pool.
 pub struct Cpu {
@@ -24,11 +24,45 @@ pub struct Cpu {
 
 /// Edge of the square tiles that threads take, pixels: rays of a tile meet the same nodes.
 const TILE: u32 = 16;
+/// Rays that threads take at a time.
+const RAYS: usize = 256;
 
 impl Cpu {
     /// A back end for a scene.
     pub fn new(scene: Arc<Scene>) -> Self {
         Cpu { scene }
+    }
+
+    /// Milliseconds that tracing an array of rays takes by the wall's clock, `repeats` times over, after once that does not
+    /// count; where the hits go is there before.
+    pub fn time_cast(&self, parts: Parts, query: Query, rays: &[Ray], repeats: u32) -> Result<Vec<f64>, BackendError> {
+        let mut hits = vec![Hit::miss(0.0); rays.len()];
+        self.cast_into(parts, query, rays, &mut hits)?;
+        (0..repeats)
+            .map(|_| {
+                let start = Instant::now();
+                self.cast_into(parts, query, rays, &mut hits)?;
+                Ok(start.elapsed().as_secs_f64() * 1e3)
+            })
+            .collect()
+    }
+
+    fn cast_into(&self, parts: Parts, query: Query, rays: &[Ray], hits: &mut [Hit]) -> Result<(), BackendError> {
+        if parts.traversal != self.scene.parts.traversal {
+            return Err(BackendError::Parts(parts));
+        }
+        macro_rules! cast_with {
+            ($($traversal:ident $triangle:ident $box_test:ident $($entry:ident)+ $($name:literal)+ $kind:ty;)+) => {
+                match (parts.traversal, parts.triangle, parts.box_test) {
+                    $((TraversalKind::$traversal, TriangleKind::$triangle, BoxKind::$box_test) => {
+                        cast::<$kind>(&self.scene, query, rays, hits);
+                        Ok(())
+                    })+
+                    _ => Err(BackendError::Parts(parts)),
+                }
+            };
+        }
+        oktant_shared::offered_parts!(cast_with)
     }
 
     /// Adds one pass of samples to a picture of the frame's size; the first pass overwrites. Returns false, with the
@@ -42,10 +76,10 @@ impl Cpu {
     ) -> bool {
         let world = self.scene.world();
         let size = frame.size();
-        let body = if self.scene.is_plain() {
-            render_pixel::<Standard, false>
-        } else {
-            render_pixel::<Standard, true>
+        let body = match (self.scene.parts == Parts::default(), self.scene.is_plain()) {
+            (true, true) => render_pixel::<Standard, false>,
+            (true, false) => render_pixel::<Standard, true>,
+            (false, _) => render_pixel::<General, true>,
         };
         let overwrite = frame.first_sample == 0;
         let rows = size.y.div_ceil(TILE);
@@ -88,36 +122,42 @@ impl Backend for Cpu {
         let world = self.scene.world();
         let size = frame.size();
         let mut hits = vec![Hit::miss(0.0); size.x as usize * size.y as usize];
+        let body = if self.scene.parts == Parts::default() {
+            hit_pixel::<Standard>
+        } else {
+            hit_pixel::<General>
+        };
         for_each_tile(
             (&mut hits, &mut vec![(); size.x as usize * size.y as usize]),
             size.x,
-            |pixel, hit, ()| *hit = hit_pixel::<Standard>(frame, &world, pixel),
+            |pixel, hit, ()| *hit = body(frame, &world, pixel),
             || true,
         );
         Ok(hits)
     }
 
     fn cast(&mut self, parts: Parts, query: Query, rays: &[Ray]) -> Result<Vec<Hit>, BackendError> {
-        Ok(match parts {
-            Parts::KayKajiyaWatertight => cast::<Revelles<KayKajiya, Watertight>>(&self.scene, query, rays),
-            Parts::WilliamsMollerTrumbore => cast::<Revelles<Williams, MollerTrumbore>>(&self.scene, query, rays),
-        })
+        let mut hits = vec![Hit::miss(0.0); rays.len()];
+        self.cast_into(parts, query, rays, &mut hits)?;
+        Ok(hits)
     }
 }
 
-fn cast<V: Traversal>(scene: &Scene, query: Query, rays: &[Ray]) -> Vec<Hit> {
+fn cast<V: Traversal>(scene: &Scene, query: Query, rays: &[Ray], hits: &mut [Hit]) {
     let scene = scene.view();
-    rays.par_iter()
-        .with_min_len(256)
-        .map(|ray| match query {
-            Query::Closest => V::closest_hit(&scene, ray),
-            Query::Any if V::any_hit(&scene, ray) => Hit {
-                triangle: 0,
-                ..Hit::miss(0.0)
-            },
-            Query::Any => Hit::miss(ray.t_max),
-        })
-        .collect()
+    let rays = rays.par_chunks(RAYS).zip(hits.par_chunks_mut(RAYS));
+    rays.for_each(|(rays, hits)| {
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = match query {
+                Query::Closest => scene.identified(V::closest_hit(&scene, ray)),
+                Query::Any if V::any_hit(&scene, ray) => Hit {
+                    triangle: 0,
+                    ..Hit::miss(0.0)
+                },
+                Query::Any => Hit::miss(ray.t_max),
+            };
+        }
+    });
 }
 
 /// Calls `body` for every pixel with its elements of two arrays, tile by tile in parallel; `after_row`, called after a row of

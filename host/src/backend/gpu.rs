@@ -1,6 +1,8 @@
 //! The GPU back end: the kernel compiled to SPIR-V, run by wgpu.
 
 mod device;
+mod kernel;
+mod kernel_error;
 mod kernel_module;
 mod layouts;
 mod probe;
@@ -8,20 +10,26 @@ mod readback;
 mod resources;
 
 pub use device::{Gpu, GpuOptions};
+pub use kernel::Kernel;
+pub use kernel_error::KernelError;
 pub use kernel_module::{KernelManifest, ModulePath, compiled_kernel};
 pub use resources::{GpuPicture, GpuScene};
 
-use super::{Backend, BackendError, Parts, Query};
+use super::{Backend, BackendError, Query};
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use glam::{Vec4, uvec2};
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
+use oktant_shared::parts::Parts;
 use oktant_shared::ray::Ray;
+use oktant_shared::render::sample_ray;
+use oktant_shared::trace::nearest_plane;
 use readback::Timer;
 use resources::PLAIN;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Renders on a GPU with a scene that lies in its memory.
 pub struct GpuBackend {
@@ -38,6 +46,8 @@ const TREES_PER_DISPATCH: u64 = 1 << 21;
 const TILE: u32 = 8;
 /// Size of the workgroups of the entry points that take an array.
 const LINE: u32 = 64;
+/// Dispatches between two timestamps, one after the other: the start of a pass would count for more than a short kernel.
+const AT_ONCE: u32 = 8;
 /// Workgroups in a row of such a dispatch; the kernel counts on it.
 const LINES_PER_ROW: u32 = 32_768;
 
@@ -65,30 +75,43 @@ impl GpuBackend {
         let picture = self.gpu.picture(size.x, size.y)?;
         self.gpu.pipeline(self.scene.entry)?;
         let timer = self.timer()?;
-        (0..repeats)
-            .map(|_| {
-                let mut encoder = self.gpu.encoder();
-                self.gpu
-                    .encode_render(&mut encoder, &self.scene, &picture, frame, size.y, Some(&timer))?;
-                timer.finish(&self.gpu, encoder)
-            })
-            .collect()
+        timed(repeats, || {
+            let mut encoder = self.gpu.encoder();
+            self.gpu
+                .encode_render(&mut encoder, &self.scene, &picture, frame, size.y, Some(&timer))?;
+            timer.finish(&self.gpu, encoder)
+        })
     }
 
-    /// Milliseconds that the kernel takes for an array of rays, `repeats` times over, by the device's own clock.
+    /// Milliseconds that the kernel takes for an array of rays, `repeats` times over, by the device's own clock: each the
+    /// mean of eight dispatches.
     ///
     /// # Errors
     /// As [`GpuBackend::time_render`].
     pub fn time_cast(&self, parts: Parts, query: Query, rays: &[Ray], repeats: u32) -> Result<Vec<f64>, BackendError> {
         let cast = self.prepare_cast(parts, query, rays)?;
         let timer = self.timer()?;
-        (0..repeats)
-            .map(|_| {
-                let mut encoder = self.gpu.encoder();
-                cast.encode(&mut encoder, Some(&timer));
-                timer.finish(&self.gpu, encoder)
+        timed(repeats, || {
+            let mut encoder = self.gpu.encoder();
+            cast.encode(&mut encoder, Some(&timer), AT_ONCE);
+            Ok(timer.finish(&self.gpu, encoder)? / f64::from(AT_ONCE))
+        })
+    }
+
+    /// What the first sample of each pixel sees, with rays made by the host: the entry point for it has the default parts.
+    fn cast_hits(&mut self, frame: &Frame) -> Result<Vec<Hit>, BackendError> {
+        let (width, height) = frame.size().into();
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| uvec2(x, y)));
+        let (rays, planes): (Vec<Ray>, Vec<Hit>) = pixels
+            .map(|pixel| {
+                let ray = sample_ray(frame, pixel, frame.first_sample);
+                let plane = nearest_plane(&self.scene.planes, frame.plane_count, &ray);
+                (Ray { t_max: plane.t, ..ray }, plane)
             })
-            .collect()
+            .unzip();
+        let hits = self.cast(self.scene.parts, Query::Closest, &rays)?;
+        let nearer = |(hit, plane): (Hit, Hit)| if hit.is_hit() { hit } else { plane };
+        Ok(hits.into_iter().zip(planes).map(nearer).collect())
     }
 
     fn timer(&self) -> Result<Timer, BackendError> {
@@ -96,11 +119,13 @@ impl GpuBackend {
     }
 
     fn prepare_cast(&self, parts: Parts, query: Query, rays: &[Ray]) -> Result<Cast<'_>, BackendError> {
-        let entry = match (parts, query) {
-            (Parts::KayKajiyaWatertight, Query::Closest) => "closest_kay_kajiya_watertight",
-            (Parts::KayKajiyaWatertight, Query::Any) => "any_kay_kajiya_watertight",
-            (Parts::WilliamsMollerTrumbore, Query::Closest) => "closest_williams_moller_trumbore",
-            (Parts::WilliamsMollerTrumbore, Query::Any) => "any_williams_moller_trumbore",
+        let entries = parts
+            .entry_points()
+            .filter(|_| parts.traversal == self.scene.parts.traversal);
+        let (closest, any) = entries.ok_or(BackendError::Parts(parts))?;
+        let entry = match query {
+            Query::Closest => closest,
+            Query::Any => any,
         };
         let gpu = &self.gpu;
         let frame = Frame {
@@ -120,6 +145,19 @@ impl GpuBackend {
     }
 }
 
+/// A device that has been idle takes so long to reach its clock again.
+const WARM_UP: Duration = Duration::from_millis(100);
+
+/// Measures `repeats` times, after as many that do not count as the device needs to wake up.
+fn timed(repeats: u32, once: impl Fn() -> Result<f64, BackendError>) -> Result<Vec<f64>, BackendError> {
+    let start = Instant::now();
+    once()?;
+    while start.elapsed() < WARM_UP {
+        once()?;
+    }
+    (0..repeats).map(|_| once()).collect()
+}
+
 /// An array of rays in the device's memory.
 struct Cast<'a> {
     pipeline: Arc<wgpu::ComputePipeline>,
@@ -131,7 +169,7 @@ struct Cast<'a> {
 }
 
 impl Cast<'_> {
-    fn encode(&self, encoder: &mut wgpu::CommandEncoder, timer: Option<&Timer>) {
+    fn encode(&self, encoder: &mut wgpu::CommandEncoder, timer: Option<&Timer>, times: u32) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("cast"),
             timestamp_writes: timer.map(Timer::writes),
@@ -140,11 +178,13 @@ impl Cast<'_> {
         pass.set_bind_group(0, &self.scene.group, &[]);
         pass.set_bind_group(1, &self.frame, &[]);
         pass.set_bind_group(2, &self.pass, &[]);
-        pass.dispatch_workgroups(
-            self.workgroups.min(LINES_PER_ROW),
-            self.workgroups.div_ceil(LINES_PER_ROW),
-            1,
-        );
+        for _ in 0..times {
+            pass.dispatch_workgroups(
+                self.workgroups.min(LINES_PER_ROW),
+                self.workgroups.div_ceil(LINES_PER_ROW),
+                1,
+            );
+        }
     }
 }
 
@@ -196,6 +236,9 @@ impl Backend for GpuBackend {
     }
 
     fn hits(&mut self, frame: &Frame) -> Result<Vec<Hit>, BackendError> {
+        if self.scene.parts != Parts::default() {
+            return self.cast_hits(frame);
+        }
         let (width, height) = frame.size().into();
         let gpu = &self.gpu;
         let hits = gpu.output("hits", u64::from(width) * u64::from(height) * size_of::<Hit>() as u64)?;
@@ -222,7 +265,7 @@ impl Backend for GpuBackend {
         }
         let cast = self.prepare_cast(parts, query, rays)?;
         let mut encoder = self.gpu.encoder();
-        cast.encode(&mut encoder, None);
+        cast.encode(&mut encoder, None, 1);
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.read(&cast.hits)
     }
@@ -249,7 +292,7 @@ impl Gpu {
         } else {
             // Not to be counted, should it be made only now.
             self.pipeline(scene.entry)?;
-            let start = std::time::Instant::now();
+            let start = Instant::now();
             self.encode_render(&mut encoder, scene, picture, frame, picture.height, None)?;
             self.queue.submit([encoder.finish()]);
             self.wait()?;

@@ -1,18 +1,28 @@
 //! What can stand on the command line.
 
+mod bench;
 mod look;
 mod numbers;
+mod refusal;
 mod values;
 
+pub use bench::{BenchArguments, BenchTable};
 pub use look::{LookArguments, StereoArgument};
 pub use values::{Aovs, Octree, Size};
 
+use super::Failure;
+use super::engine::EngineOptions;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use oktant::backend::BackendChoice;
-use oktant::backend::gpu::ModulePath;
+use oktant::backend::gpu::{GpuOptions, Kernel, ModulePath};
 use oktant::output::Bits;
-use std::path::PathBuf;
-use values::{aovs, octree, size};
+use oktant::structure::StructureOptions;
+use oktant::tree::BuildPreset;
+use oktant_shared::parts::{BoxKind, Parts, TraversalKind, TriangleKind};
+use refusal::refusal;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use values::{aovs, box_test, octree, preset, size, traversal, triangle};
 
 /// Interactive ray tracer of triangle meshes whose GPU kernel is written in Rust.
 ///
@@ -31,8 +41,14 @@ pub enum Command {
     View(ViewArguments),
     /// Render a picture of a scene or mesh into a PNG or EXR file.
     Render(RenderArguments),
+    /// Trace rays from a file at a scene or mesh, and write where they hit into a file.
+    Cast(CastArguments),
+    /// Measure the thesis's pictures and all parts on sets of rays, each checked by the oracle first.
+    Bench(BenchArguments),
     /// Read scene files with all that they refer to, and say what is in them, or what is wrong.
     Check(CheckArguments),
+    /// List the parts that can be exchanged, and the combinations that are offered.
+    Kernels(KernelsArguments),
     /// Print the figures of a scene or mesh and of its octree, and the adapters at hand.
     Info(InfoArguments),
     /// Print the completions of a shell, for example: oktant completions bash > ~/.bash_completion
@@ -83,6 +99,32 @@ pub struct RenderArguments {
     pub repeat: u32,
 }
 
+#[derive(Debug, Args)]
+pub struct CastArguments {
+    /// A scene file (TOML), a mesh file (PLY, PTRI or MSH1), or one of the built-in meshes `bunny`, `balls` and `stadium`.
+    pub mesh: PathBuf,
+    /// The rays: a .npy file of N x 6 numbers (origin, direction) or N x 8 (then tmin, tmax), or a file that begins with
+    /// PRAY or RAY1; docs/cast.md describes them.
+    pub rays: PathBuf,
+    /// Where the hits go: arrays t, triangle, u, v and normal for numpy.load, or hit where any hit is asked for. An
+    /// existing file is replaced once the new one is complete.
+    #[arg(short, long, value_name = "HITS.npz", required_unless_present = "repeat")]
+    pub output: Option<PathBuf>,
+    /// Ask whether there is any hit instead of for the closest one [default: as the file says, else the closest one].
+    #[arg(long, conflicts_with = "closest")]
+    pub any: bool,
+    /// Ask for the closest hit, also where the file says any.
+    #[arg(long)]
+    pub closest: bool,
+    #[command(flatten)]
+    pub structure: StructureArguments,
+    #[command(flatten)]
+    pub engine: EngineArguments,
+    /// Trace so many times more and print how fast, as JSON: by the GPU's clock, or by the wall's around the tracing alone.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub repeat: Option<u32>,
+}
+
 /// Which files a picture becomes.
 #[derive(Debug, Args)]
 pub struct FileArguments {
@@ -111,20 +153,69 @@ impl FileArguments {
 }
 
 #[derive(Debug, Args)]
+pub struct KernelsArguments {
+    /// Print everything as JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
 pub struct InfoArguments {
     #[command(flatten)]
     pub mesh: MeshArguments,
 }
 
-/// Which mesh, and its octree.
+/// Which mesh, and what rays are traced with.
 #[derive(Debug, Default, Args)]
 pub struct MeshArguments {
-    /// A scene file (TOML), a PLY file, or one of the built-in meshes `bunny`, `balls` and `stadium` [default: bunny].
+    /// A scene file (TOML), a mesh file (PLY, PTRI or MSH1), or one of the built-in meshes `bunny`, `balls` and `stadium` [default: bunny].
     pub mesh: Option<PathBuf>,
+    #[command(flatten)]
+    pub structure: StructureArguments,
+}
+
+/// What rays are traced with.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub struct StructureArguments {
+    /// The way through the scene; `oktant kernels` says more of it and the tests.
+    #[arg(long, value_parser = traversal(), default_value = "octants")]
+    pub traversal: TraversalKind,
+    /// The test of ray against triangle.
+    #[arg(long, value_parser = triangle(), default_value = "watertight")]
+    pub triangle: TriangleKind,
+    /// The test of ray against box, where the traversal leaves it open.
+    #[arg(long = "box", value_parser = box_test(), default_value = "kay-kajiya")]
+    pub box_test: BoxKind,
+    /// What the build of a tree of boxes spends its time on.
+    #[arg(long, value_parser = preset(), default_value = "balanced")]
+    pub build: BuildPreset,
     /// Limits of the octree, any of depth=0..13, leaf=N (cells with so few references are not split) and budget=N
     /// (references per triangle at most), separated by commas.
     #[arg(long, value_name = "depth=D,leaf=N,budget=N", value_parser = octree, default_value = "")]
     pub octree: Octree,
+}
+
+impl StructureArguments {
+    /// What is to be built.
+    ///
+    /// # Errors
+    /// A combination that is not offered.
+    pub fn options(&self) -> Result<StructureOptions, Failure> {
+        let parts = Parts {
+            traversal: self.traversal,
+            triangle: self.triangle,
+            box_test: self.box_test,
+        };
+        if !parts.is_offered() {
+            return Err(Failure::usage(refusal(parts)));
+        }
+        Ok(StructureOptions {
+            parts,
+            preset: self.build,
+            octree: self.octree.0,
+            ..StructureOptions::default()
+        })
+    }
 }
 
 /// What renders.
@@ -136,6 +227,10 @@ pub struct EngineArguments {
     /// How the kernel reaches the GPU's driver: as it is where that is possible (auto, passthrough) or through naga.
     #[arg(long, value_enum, default_value = "auto")]
     pub spirv: SpirvArgument,
+    /// A compiled kernel to run on the GPU in the place of the one that is part of the program, with its manifest beside
+    /// it; docs/kernels.md says what it must be. The viewer reads it again whenever it is saved.
+    #[arg(long, value_name = "FILE.spv")]
+    pub kernel: Option<PathBuf>,
 }
 
 impl EngineArguments {
@@ -144,6 +239,38 @@ impl EngineArguments {
             BackendArgument::Auto => BackendChoice::Auto,
             BackendArgument::Cpu => BackendChoice::Cpu,
             BackendArgument::Gpu => BackendChoice::Gpu,
+        }
+    }
+
+    /// What to render with. A kernel is read now, so that nobody waits for a scene and then learns that it does not fit.
+    ///
+    /// # Errors
+    /// A kernel for the CPU, or one that cannot be run.
+    pub fn options(&self) -> Result<EngineOptions, Failure> {
+        let kernel = match self.kernel_file()? {
+            Some(path) => Some(Arc::new(Kernel::read(path)?)),
+            None => None,
+        };
+        Ok(EngineOptions {
+            choice: self.choice(),
+            gpu: GpuOptions {
+                software: self.choice() == BackendChoice::Gpu,
+                module: self.module(),
+                kernel,
+            },
+        })
+    }
+
+    /// The file of the kernel, if there is one.
+    ///
+    /// # Errors
+    /// One for the CPU.
+    pub fn kernel_file(&self) -> Result<Option<&Path>, Failure> {
+        match (&self.kernel, self.backend) {
+            (Some(_), BackendArgument::Cpu) => Err(Failure::usage(
+                "--kernel runs on a GPU, and --backend cpu has none; leave one of the two out.",
+            )),
+            (kernel, _) => Ok(kernel.as_deref()),
         }
     }
 

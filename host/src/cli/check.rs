@@ -4,11 +4,11 @@ use super::Failure;
 use super::arguments::CheckArguments;
 use super::progress_bar::ProgressBar;
 use super::render::counted;
-use oktant::octree::OctreeOptions;
 use oktant::scene::Scene;
 use oktant::scene_file::{self, SceneFileError};
+use oktant::structure::StructureOptions;
 
-/// Reads each scene file with all that it refers to and builds its octree, and says what is in it.
+/// Reads each scene file with all that it refers to and builds its structure, and says what is in it.
 pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     for path in &arguments.scenes {
         let bar = ProgressBar::new();
@@ -22,7 +22,7 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
             counted(model.lights.len(), "light"),
             counted(model.textures.len(), "texture"),
         ];
-        Scene::of_model(model, &OctreeOptions::default(), &progress)
+        Scene::of_model(model, &StructureOptions::default(), &progress)
             .map_err(|error| SceneFileError::of_build(path, error))?;
         drop(bar);
         super::print(&format!("{}: {}: ok\n", path.display(), counts.join(", ")))?;

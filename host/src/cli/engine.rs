@@ -1,16 +1,24 @@
 //! Choosing what renders.
 
-use super::arguments::EngineArguments;
 use oktant::backend::cpu::Cpu;
 use oktant::backend::gpu::{Gpu, GpuBackend, GpuOptions};
-use oktant::backend::{Backend, BackendChoice, BackendError};
+use oktant::backend::{Backend, BackendChoice, BackendError, Query};
 use oktant::picture::Picture;
 use oktant::progress::Progress;
 use oktant::scene::Scene;
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
+use oktant_shared::parts::Parts;
+use oktant_shared::ray::Ray;
 use std::sync::Arc;
 use std::time::Instant;
+
+/// What is to render.
+#[derive(Clone, Debug, Default)]
+pub struct EngineOptions {
+    pub choice: BackendChoice,
+    pub gpu: GpuOptions,
+}
 
 /// A back end with a scene.
 pub struct Engine {
@@ -25,27 +33,24 @@ enum Kind {
 }
 
 impl Engine {
-    /// The back end that the arguments choose. `auto` says why where it does not take a GPU.
-    pub fn new(arguments: &EngineArguments, scene: &Arc<Scene>) -> Result<Self, BackendError> {
-        let choice = arguments.choice();
-        let gpu = |software| {
-            let gpu = Gpu::open(&GpuOptions {
-                software,
-                module: arguments.module(),
-            })?;
+    /// The back end that the options choose. `auto` says why where it does not take a GPU; a kernel needs one.
+    pub fn new(options: &EngineOptions, scene: &Arc<Scene>) -> Result<Self, BackendError> {
+        let gpu = || {
+            let gpu = Gpu::open(&options.gpu)?;
             GpuBackend::new(Arc::new(gpu), scene).map(Kind::Gpu)
         };
+        let may_fall_back = options.choice == BackendChoice::Auto && options.gpu.kernel.is_none();
         let mut engine = Engine {
             kind: Kind::Cpu(Cpu::new(scene.clone())),
-            fallback: (choice == BackendChoice::Auto).then(|| scene.clone()),
+            fallback: may_fall_back.then(|| scene.clone()),
         };
-        match choice {
+        match options.choice {
             BackendChoice::Cpu => {}
-            BackendChoice::Gpu => engine.kind = gpu(true)?,
-            BackendChoice::Auto => match gpu(false) {
+            BackendChoice::Auto if may_fall_back => match gpu() {
                 Ok(gpu) => engine.kind = gpu,
                 Err(error) => eprintln!("{}", error.and_the_cpu_renders()),
             },
+            BackendChoice::Auto | BackendChoice::Gpu => engine.kind = gpu()?,
         }
         Ok(engine)
     }
@@ -66,6 +71,11 @@ impl Engine {
     /// What the first sample of each pixel sees; by whom, as in [`Engine::render`].
     pub fn hits(&mut self, frame: &Frame) -> Result<Vec<Hit>, BackendError> {
         self.attempt(|backend| backend.hits(frame))
+    }
+
+    /// Traces an array of rays; by whom, as in [`Engine::render`].
+    pub fn cast(&mut self, parts: Parts, query: Query, rays: &[Ray]) -> Result<Vec<Hit>, BackendError> {
+        self.attempt(|backend| backend.cast(parts, query, rays))
     }
 
     fn attempt<T>(&mut self, work: impl Fn(&mut dyn Backend) -> Result<T, BackendError>) -> Result<T, BackendError> {
@@ -99,6 +109,21 @@ impl Engine {
                     Ok(start.elapsed().as_secs_f64() * 1e3)
                 })
                 .collect(),
+        }
+    }
+
+    /// Milliseconds that tracing an array of rays takes, several times over: the kernel alone by the GPU's clock, or by the
+    /// wall's, without what leads to and from it.
+    pub fn time_cast(
+        &mut self,
+        parts: Parts,
+        query: Query,
+        rays: &[Ray],
+        repeats: u32,
+    ) -> Result<Vec<f64>, BackendError> {
+        match &mut self.kind {
+            Kind::Gpu(gpu) => gpu.time_cast(parts, query, rays, repeats),
+            Kind::Cpu(cpu) => cpu.time_cast(parts, query, rays, repeats),
         }
     }
 }

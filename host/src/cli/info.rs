@@ -4,14 +4,14 @@ use super::Failure;
 use super::arguments::InfoArguments;
 use glam::DVec3;
 use oktant::backend::gpu::{Gpu, compiled_kernel};
-use oktant::octree::OctreeStatistics;
+use oktant::structure::Figures;
 use std::fmt::Write;
 
 pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let loaded = arguments.mesh.load()?;
     let scene = &loaded.scene;
     let triangles = loaded.triangles.max(1) as f64;
-    let statistics = OctreeStatistics::new(&scene.nodes, scene.references.len());
+    let statistics = Figures::new(scene.parts.traversal, &scene.nodes);
     let mut text = String::new();
     let mut line = |name: &str, value: String| {
         writeln!(text, "{name:<12} {value}").expect("a string can be written to");
@@ -32,9 +32,10 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     }
     let root = &scene.root;
     line(
-        "octree",
+        "structure",
         format!(
-            "{} levels below the root, a cube of {} at {}",
+            "{}, {} levels below the root, in a cube of {} at {}",
+            scene.parts.traversal,
             statistics.depth,
             root.size(),
             root.low
@@ -44,7 +45,7 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         "nodes",
         format!(
             "{} ({} inner, {} leaves with and {} without references)",
-            scene.nodes.len(),
+            statistics.inner + statistics.filled + statistics.empty,
             statistics.inner,
             statistics.filled,
             statistics.empty
@@ -63,10 +64,10 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     line(
         "bytes",
         format!(
-            "{}, {:.1} per triangle ({:.1} octree, {:.1} triangles, {:.1} normals and colours)",
+            "{}, {:.1} per triangle ({:.1} structure, {:.1} triangles, {:.1} normals and colours)",
             scene.bytes(),
             scene.bytes() as f64 / triangles,
-            statistics.bytes as f64 / triangles,
+            scene.structure_bytes() as f64 / triangles,
             size_of_val(scene.triangles.as_slice()) as f64 / triangles,
             size_of_val(scene.vertices.as_slice()) as f64 / triangles,
         ),
@@ -116,7 +117,7 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
 }
 
 /// Leaves by number of references.
-fn histogram(statistics: &OctreeStatistics) -> String {
+fn histogram(statistics: &Figures) -> String {
     statistics
         .histogram
         .iter()

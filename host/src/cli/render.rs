@@ -36,6 +36,7 @@ pub fn render(
 ) -> Result<(), Failure> {
     look.check(&mesh.source())?;
     let format = format(files, look)?;
+    let engine = engine.options()?;
     let aovs = files.aov.0.as_slice();
     let create = |is_pair| RenderingFiles::create(&files.output, format, aovs, is_pair);
     // First of all, so that nobody waits for a picture that cannot be stored.
@@ -49,7 +50,7 @@ pub fn render(
     check_halves(&view, size)?;
     let scene = Arc::new(loaded.scene);
     let frame = view.frame(&scene, size.width, size.height);
-    let mut engine = Engine::new(engine, &scene)?;
+    let mut engine = Engine::new(&engine, &scene)?;
     let start = Instant::now();
     let bar = ProgressBar::new();
     let picture = engine.render(&frame, &|stage, fraction| bar.show(stage, fraction))?;

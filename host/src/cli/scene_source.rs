@@ -29,7 +29,7 @@ impl MeshArguments {
         Source::from_argument(self.mesh.as_deref())
     }
 
-    /// Reads the scene and builds its octree, with progress on a terminal.
+    /// Reads the scene and builds its structure, with progress on a terminal.
     pub fn load(&self) -> Result<Loaded, Failure> {
         let bar = ProgressBar::new();
         let start = Instant::now();
@@ -40,7 +40,7 @@ impl MeshArguments {
         let mesh = &setting.model.mesh;
         let (triangles, vertices) = (mesh.triangles.len(), mesh.positions.len());
         let (has_colors, shift) = (!mesh.colors.is_empty(), mesh.shift);
-        let scene = Scene::of_model(setting.model, &self.octree.0, &|stage, fraction| {
+        let scene = Scene::of_model(setting.model, &self.structure.options()?, &|stage, fraction| {
             bar.show(stage, fraction)
         })
         .map_err(|error| match source {

@@ -14,11 +14,12 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
     let look = arguments.look.clone();
     let options = ViewerOptions {
         source: arguments.mesh.source(),
-        octree: arguments.mesh.octree.0,
+        structure: arguments.mesh.structure.options()?,
         look: Look::new(move |view| look.applied(view)),
         size: arguments.size.map(|size| [size.width, size.height]),
         backend: arguments.engine.choice(),
         module: arguments.engine.module(),
+        kernel: arguments.engine.kernel_file()?.map(PathBuf::from),
         script: arguments.script.clone(),
         pictures: PathBuf::from("."),
     };

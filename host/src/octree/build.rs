@@ -1,9 +1,9 @@
 //! Building an octree, level by level.
 
-use super::duplicates::distinct;
 use super::overlap::overlapped_children;
 use super::root::root;
 use super::{Octree, OctreeError};
+use crate::hittable::Hittable;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use glam::{UVec3, Vec3};
@@ -59,41 +59,27 @@ struct Split {
 }
 
 pub(super) fn build(mesh: &Mesh, options: &OctreeOptions, progress: Progress<'_>) -> Result<Octree, OctreeError> {
-    let corners: Vec<[Vec3; 3]> = mesh
-        .triangles
-        .par_iter()
-        .map(|triangle| triangle.map(|index| mesh.positions[index as usize]))
-        .collect();
-    let distinct = distinct(mesh, &corners);
-    let (low, high) = distinct
-        .ids
-        .par_iter()
-        .map(|id| {
-            let [a, b, c] = corners[*id as usize];
-            (a.min(b).min(c), a.max(b).max(c))
-        })
-        .reduce_with(|a, b| (a.0.min(b.0), a.1.max(b.1)))
-        .ok_or(OctreeError::NoArea)?;
-    let root = root(low, high, options.depth)?;
-    let budget = distinct.ids.len() * options.budget as usize;
+    let hittable = Hittable::of(mesh)?;
+    let root = root(hittable.low, hittable.high, options.depth)?;
+    let budget = hittable.ids.len() * options.budget as usize;
     let (nodes, references) = Levels {
-        corners: &corners,
+        corners: &hittable.corners,
         root: &root,
         leaf: options.leaf as usize,
         budget,
         nodes: vec![Node {
             first: 0,
-            count: distinct.ids.len() as u32,
+            count: hittable.ids.len() as u32,
         }],
         references: Vec::new(),
     }
-    .split_all(distinct.ids, progress);
+    .split_all(hittable.ids, progress);
     Ok(Octree {
         root,
         nodes,
         references,
-        degenerate: distinct.degenerate,
-        duplicates: distinct.duplicates,
+        degenerate: hittable.degenerate,
+        duplicates: hittable.duplicates,
     })
 }
 

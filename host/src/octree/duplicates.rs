@@ -5,7 +5,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 /// The triangles that can be hit, ascending, and how many cannot.
-pub(super) struct Distinct {
+pub(crate) struct Distinct {
     /// Ids of the triangles that have an area and do not lie exactly on one with a lower id.
     pub ids: Vec<u32>,
     /// Triangles without area.
@@ -14,8 +14,34 @@ pub(super) struct Distinct {
     pub duplicates: u32,
 }
 
+/// The slots of triangles that lie exactly on one with a lower id; `ids` are the triangles' by slot.
+pub(crate) fn duplicates(mesh: &Mesh, ids: &[u32]) -> Vec<u32> {
+    let corners = |id: u32| mesh.triangles[id as usize].map(|index| mesh.positions[index as usize]);
+    let mut hashed: Vec<(u64, u32)> = ids
+        .par_iter()
+        .enumerate()
+        .map(|(slot, id)| (hash(&corners(*id)), slot as u32))
+        .collect();
+    hashed.par_sort_unstable();
+    let mut duplicates = Vec::new();
+    for group in hashed.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1) {
+        let mut known: Vec<[[u32; 3]; 3]> = Vec::new();
+        let mut slots: Vec<u32> = group.iter().map(|(_, slot)| *slot).collect();
+        slots.sort_unstable_by_key(|slot| ids[*slot as usize]);
+        for slot in slots {
+            let key = sorted(&corners(ids[slot as usize]));
+            if known.contains(&key) {
+                duplicates.push(slot);
+            } else {
+                known.push(key);
+            }
+        }
+    }
+    duplicates
+}
+
 /// Sorts out what no ray can hit, or not first: of coincident triangles the lowest id wins anyway.
-pub(super) fn distinct(mesh: &Mesh, corners: &[[Vec3; 3]]) -> Distinct {
+pub(crate) fn distinct(mesh: &Mesh, corners: &[[Vec3; 3]]) -> Distinct {
     // Sorted by a hash of the corners, equal triangles are neighbours.
     let mut hashed: Vec<(u64, u32)> = corners
         .par_iter()
@@ -47,7 +73,8 @@ pub(super) fn distinct(mesh: &Mesh, corners: &[[Vec3; 3]]) -> Distinct {
     }
 }
 
-fn has_area(corners: &[Vec3; 3]) -> bool {
+/// Whether a ray can hit the triangle at all: edges that f32 holds have an exact enough product in f64.
+pub(crate) fn has_area(corners: &[Vec3; 3]) -> bool {
     let [a, b, c] = corners.map(|corner| corner.as_dvec3());
     (b - a).cross(c - a).length_squared() > 0.0
 }

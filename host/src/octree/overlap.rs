@@ -11,7 +11,7 @@ const LOWER: [u8; 3] = [0x55, 0x33, 0x0f];
 /// sides. Separating axes: the three of the cell, the triangle's normal, and the nine products of edges and cell axes
 /// (T. Akenine-Moller, "Fast 3D triangle-box overlap testing", JGT 6(1), 2001), here for the eight children at once and
 /// in f64, in which the products of f32 differences lose nothing that matters beside the margin, even for slivers.
-pub(super) fn overlapped_children(corners: &[Vec3; 3], center: Vec3, half: f32, margin: f32) -> u8 {
+pub(crate) fn overlapped_children(corners: &[Vec3; 3], center: Vec3, half: f32, margin: f32) -> u8 {
     let low = corners[0].min(corners[1]).min(corners[2]);
     let high = corners[0].max(corners[1]).max(corners[2]);
     let mut children = 0xff;

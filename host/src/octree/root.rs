@@ -18,7 +18,7 @@ const UNITS: f64 = 64.0;
 /// times a power of two; odd, because the planes of axis-aligned meshes then seldom coincide with those of cells, which
 /// would put their triangles into the cells of both sides. There is at least a unit of room on every side. Where the
 /// mesh lies so far from the origin that f32 could not hold the planes of small cells, the depth is less.
-pub(super) fn root(low: Vec3, high: Vec3, depth: u32) -> Result<Root, OctreeError> {
+pub(crate) fn root(low: Vec3, high: Vec3, depth: u32) -> Result<Root, OctreeError> {
     let (low, high) = (low.as_dvec3(), high.as_dvec3());
     let extent = (high - low).max_element();
     if !(f64::from(SMALLEST_EXTENT)..=f64::from(LARGEST_EXTENT)).contains(&extent) {

@@ -1,8 +1,8 @@
 //! What is wrong with a scene file, and where.
 
 use super::place::{Place, Step};
+use crate::mesh_source::MeshError;
 use crate::nearest::nearest;
-use crate::ply::PlyError;
 use image::ImageError;
 use serde::de::{Error, Expected, Unexpected};
 use std::borrow::Cow;
@@ -122,7 +122,7 @@ pub enum Reason {
     TooMany(usize),
     /// A mesh that cannot be read.
     #[error("cannot be used: {0}")]
-    Mesh(Box<PlyError>),
+    Mesh(Box<MeshError>),
     /// An image that cannot be read.
     #[error("cannot be used: {} is no image that can be read ({reason}); give a PNG, JPEG, HDR or EXR file", path.display())]
     Image {

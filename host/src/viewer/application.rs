@@ -4,8 +4,9 @@ use super::draft::{Draft, Paces};
 use super::event::Event;
 use super::figures::Figures;
 use super::input::Input;
+use super::kernel_file::KernelFile;
 use super::load_queue::LoadQueue;
-use super::notice::{Image, Mailbox};
+use super::notice::{Image, Mailbox, Notice};
 use super::opener::open_gpu;
 use super::overlay::{Line, Overlay};
 use super::player::Player;
@@ -66,6 +67,8 @@ pub struct Application {
     pub(super) loads: LoadQueue,
     /// Loads done of what was shown already.
     pub(super) reloads: u64,
+    /// The file of the kernel, if it is not the one that is part of the program.
+    pub(super) kernel: Option<KernelFile>,
     pub(super) gpu: GpuState,
     /// Whether the GPU is to render, once it is there.
     pub(super) wants_gpu: bool,
@@ -96,7 +99,13 @@ pub struct Application {
 
 impl Application {
     /// Begins to load the source and to open the GPU; the window comes with [`ApplicationHandler::resumed`].
-    pub fn new(options: ViewerOptions, start: Instant, mailbox: Mailbox, player: Option<Player>) -> Self {
+    pub fn new(
+        options: ViewerOptions,
+        kernel: Option<KernelFile>,
+        start: Instant,
+        mailbox: Mailbox,
+        player: Option<Player>,
+    ) -> Self {
         let mut application = Application {
             start,
             session: Session::new(
@@ -116,9 +125,10 @@ impl Application {
             scene: None,
             source: options.source.clone(),
             focus: None,
-            watcher: Watcher::start(mailbox.clone()),
+            watcher: Watcher::start(mailbox.clone(), || Notice::Changed),
             loads: LoadQueue::default(),
             reloads: 0,
+            kernel,
             gpu: GpuState::Closed,
             wants_gpu: false,
             window: None,
@@ -143,7 +153,8 @@ impl Application {
         application.load(application.options.source.clone());
         match application.options.backend {
             BackendChoice::Cpu => {}
-            BackendChoice::Auto => application.open_gpu(false, false),
+            // A kernel cannot do without.
+            BackendChoice::Auto => application.open_gpu(false, application.kernel.is_some()),
             BackendChoice::Gpu => application.open_gpu(true, true),
         }
         application
@@ -186,6 +197,7 @@ impl Application {
         let options = GpuOptions {
             software,
             module: self.options.module,
+            kernel: self.kernel.as_ref().map(|file| file.kernel.clone()),
         };
         open_gpu(options, &self.mailbox);
     }

@@ -1,4 +1,4 @@
-//! Reading a scene and building its octree beside the window.
+//! Reading a scene and building its structure beside the window.
 
 use super::accident::caught;
 use super::mentioned::mentioned;
@@ -6,10 +6,10 @@ use super::notice::{LoadError, Mailbox, Notice};
 use super::throttle::Throttle;
 use super::watcher::Stamps;
 use crate::model::Focus;
-use crate::octree::OctreeOptions;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::source::Source;
+use crate::structure::StructureOptions;
 use crate::view::View;
 use std::sync::Arc;
 use std::thread;
@@ -41,7 +41,7 @@ pub struct Refusal {
 
 /// Begins to load a source; the mailbox learns how far it is, and gets the scene. `load` is the number under which it
 /// does.
-pub fn load(load: u64, source: Source, octree: OctreeOptions, mailbox: &Mailbox) {
+pub fn load(load: u64, source: Source, structure: StructureOptions, mailbox: &Mailbox) {
     let mailbox = mailbox.clone();
     thread::spawn(move || {
         let throttle = Throttle::new();
@@ -51,7 +51,7 @@ pub fn load(load: u64, source: Source, octree: OctreeOptions, mailbox: &Mailbox)
             }
         };
         let began = SystemTime::now();
-        let result = caught(|| arrive(&source, &octree, began, &progress)).unwrap_or_else(|accident| {
+        let result = caught(|| arrive(&source, &structure, began, &progress)).unwrap_or_else(|accident| {
             Err(LoadError::Accident {
                 name: source.to_string(),
                 accident,
@@ -67,14 +67,14 @@ pub fn load(load: u64, source: Source, octree: OctreeOptions, mailbox: &Mailbox)
 
 fn arrive(
     source: &Source,
-    octree: &OctreeOptions,
+    structure: &StructureOptions,
     began: SystemTime,
     progress: Progress<'_>,
 ) -> Result<Box<Arrival>, LoadError> {
     let setting = source.load(progress)?;
     let stamps = Stamps::new(setting.files, began);
     let focus = setting.model.focus;
-    let scene = Scene::of_model(setting.model, octree, progress).map_err(|error| LoadError::Scene {
+    let scene = Scene::of_model(setting.model, structure, progress).map_err(|error| LoadError::Scene {
         name: source.to_string(),
         source: error,
     })?;

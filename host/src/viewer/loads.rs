@@ -23,7 +23,7 @@ impl Application {
 
     fn begin_load(&mut self, load: Option<u64>) {
         if let (Some(load), Some(loading)) = (load, self.loads.loading()) {
-            loader::load(load, loading.source.clone(), self.options.octree, &self.mailbox);
+            loader::load(load, loading.source.clone(), self.options.structure, &self.mailbox);
             self.redraw();
         }
     }

@@ -19,11 +19,14 @@ impl Application {
             }
             Notice::Loaded { load, result } => self.take_load(load, result, now),
             Notice::Changed => self.reload(),
+            Notice::KernelChanged => self.reload_kernel(),
+            Notice::KernelSwapped(result) => self.take_kernel(result, now),
             Notice::GpuOpened(Ok(gpu)) => {
                 self.gpu = GpuState::Open(gpu.0);
                 if self.wants_gpu {
                     self.schedule.change(now);
                 }
+                self.reload_stale_kernel();
             }
             Notice::GpuOpened(Err(error)) => {
                 let is_required = matches!(self.gpu, GpuState::Opening { is_required: true });
@@ -34,6 +37,7 @@ impl Application {
                 } else {
                     self.tell(error.and_the_cpu_renders(), true);
                     self.ensure_screen();
+                    self.reload_stale_kernel();
                 }
             }
             Notice::Rendered(rendered) => self.take_picture(rendered),

@@ -3,7 +3,7 @@
 use super::accident::Accident;
 use super::loader::{Arrival, Refusal};
 use crate::backend::BackendError;
-use crate::backend::gpu::{Gpu, GpuPicture};
+use crate::backend::gpu::{Gpu, GpuPicture, Kernel};
 use crate::output::OutputError;
 use crate::picture::Picture;
 use crate::scene::SceneError;
@@ -35,6 +35,10 @@ pub enum Notice {
     Changed,
     /// The GPU is open, or cannot be.
     GpuOpened(Result<OpenGpu, BackendError>),
+    /// The file of the kernel was saved.
+    KernelChanged,
+    /// The kernel of the file runs on this GPU, or cannot.
+    KernelSwapped(Result<(Arc<Kernel>, OpenGpu), BackendError>),
     /// A picture, or a better one.
     Rendered(Rendered),
     /// A pass is done: so many of the wanted samples are taken.

@@ -117,9 +117,9 @@ mod tests {
     use super::*;
     use crate::backend::Backend;
     use crate::mesh_source::MeshSource;
-    use crate::octree::OctreeOptions;
     use crate::progress::silent;
     use crate::sampling::Samples;
+    use crate::structure::StructureOptions;
     use crate::view::View;
     use std::fs;
     use std::sync::Mutex;
@@ -128,7 +128,7 @@ mod tests {
         let mesh = MeshSource::Balls.load(&silent).unwrap();
         Task {
             engine: Engine::Cpu,
-            scene: Arc::new(Scene::new(&mesh, &OctreeOptions::default(), &silent).unwrap()),
+            scene: Arc::new(Scene::new(&mesh, &StructureOptions::default(), &silent).unwrap()),
             view: View {
                 samples: Samples::Sixteen,
                 ..View::default()

@@ -48,8 +48,8 @@ enum Watch {
 }
 
 impl Watcher {
-    /// Starts the thread; the mailbox gets a [`Notice::Changed`] whenever one of its files was saved.
-    pub fn start(mailbox: Mailbox) -> Self {
+    /// Starts the thread; the mailbox gets this notice whenever one of its files was saved.
+    pub fn start(mailbox: Mailbox, notice: fn() -> Notice) -> Self {
         let (sender, files) = channel();
         thread::spawn(move || {
             let mut watched = Watched::default();
@@ -57,7 +57,7 @@ impl Watcher {
                 match files.recv_timeout(INTERVAL) {
                     Ok(Watch::Only(stamps)) => watched.replace(stamps),
                     Ok(Watch::Also(stamps)) => watched.extend(stamps),
-                    Err(RecvTimeoutError::Timeout) if watched.has_changed() => mailbox.send(Notice::Changed),
+                    Err(RecvTimeoutError::Timeout) if watched.has_changed() => mailbox.send(notice()),
                     Err(RecvTimeoutError::Timeout) => {}
                     Err(RecvTimeoutError::Disconnected) => return,
                 }

@@ -2,6 +2,7 @@
 
 use super::application::Application;
 use super::draft::Draft;
+use super::kernel_file::KernelFile;
 use super::schedule::{Decision, Quality};
 use super::state::{GpuState, SaveProgress, Work};
 use super::task::{Destination, Effort, Engine, Purpose, Task};
@@ -115,5 +116,6 @@ impl Application {
             && self.saving.is_none()
             && self.saves.is_empty()
             && !matches!(self.gpu, GpuState::Opening { .. })
+            && !self.kernel.as_ref().is_some_and(KernelFile::is_under_way)
     }
 }

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use oktant_kernel_builder::{Error, MODULE_FILE, Manifest, entry_points, rust_gpu_version, sha256, source_hash};
+use oktant_shared::bindings::BINDINGS;
 use spirv_builder::{ShaderPanicStrategy, SpirvBuilder, SpirvMetadata};
 
 /// What the kernel is compiled for.
@@ -138,6 +139,7 @@ impl Compiler {
             sha256: sha256(&module),
             sources,
             target: TARGET.into(),
+            bindings: BINDINGS,
             rust_gpu: rust_gpu_version(crate_dir)?,
             rustc: self.version.clone(),
             entry_points: entry_points(&module)?,

@@ -28,6 +28,8 @@ pub struct Manifest {
     pub sources: String,
     /// The target triple the module was compiled for.
     pub target: String,
+    /// [`oktant_shared::bindings::BINDINGS`] of the sources: what the module expects of the host.
+    pub bindings: u32,
     /// Version of rust-gpu.
     pub rust_gpu: String,
     /// `rustc --version` of the compiler.

@@ -40,7 +40,7 @@ impl TriangleTest for MollerTrumbore {
         // Zero also where the reciprocal would overflow: then the triangle is far below what f32 resolves at this scale.
         let solvable = determinant.abs() > f32::MIN_POSITIVE;
         Crossing {
-            crosses: solvable && u >= 0.0 && v >= 0.0 && u + v <= 1.0,
+            crosses: solvable & (u >= 0.0) & (v >= 0.0) & (u + v <= 1.0),
             t,
             u,
             v,

@@ -2,9 +2,9 @@
 
 use super::{read, read_in};
 use glam::{Vec3, vec3};
-use oktant::octree::OctreeOptions;
 use oktant::progress::silent;
 use oktant::scene::Scene;
+use oktant::structure::StructureOptions;
 use oktant_shared::light::{AREA, DIRECTIONAL};
 use oktant_shared::material::{FRESNEL, PHONG_HIGHLIGHTS, SMOOTH_NORMALS};
 use oktant_shared::orbit::Up;
@@ -125,7 +125,7 @@ fn cameras_and_lights_are_where_the_file_has_them() {
         );
         let frame = |light: &str| {
             let setting = read(&format!("{head}{light}\n[[light]]\nposition = [9, 9, 9]\n"));
-            let scene = Scene::of_model(setting.model, &OctreeOptions::default(), &silent).unwrap();
+            let scene = Scene::of_model(setting.model, &StructureOptions::default(), &silent).unwrap();
             assert_eq!(scene.light_count, 1);
             setting.view.frame(&scene, 640, 480)
         };

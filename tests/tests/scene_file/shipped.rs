@@ -1,10 +1,10 @@
 //! The scenes that come with oktant, and the page about scene files.
 
 use super::{project, read, read_in, scenes};
-use oktant::octree::OctreeOptions;
 use oktant::progress::silent;
 use oktant::scene::Scene;
 use oktant::scene_file;
+use oktant::structure::StructureOptions;
 use oktant_tests::program::run;
 use std::collections::HashMap;
 use std::fs;
@@ -20,7 +20,7 @@ fn the_scenes_that_come_with_oktant_are_sound() {
         let name = scene.file_stem().unwrap().to_str().unwrap().to_string();
         counts.insert(name, setting.model.mesh.triangles.len());
         assert!(setting.files.contains(scene));
-        Scene::of_model(setting.model, &OctreeOptions::default(), &silent).unwrap();
+        Scene::of_model(setting.model, &StructureOptions::default(), &silent).unwrap();
     }
     assert_eq!(counts["balls"], 4_032, "the count of the thesis");
     assert_eq!(counts["bunny"], 69_451);

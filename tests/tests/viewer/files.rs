@@ -4,6 +4,7 @@ use super::window::{Session, agreement, run};
 use super::{SIZE, assert_same};
 use oktant::view::View;
 use oktant_shared::orbit::Up;
+use oktant_tests::spirv::CompiledKernel;
 
 /// A PLY file with so many triangles, at most 2, of a square.
 fn mesh(triangles: usize) -> String {
@@ -298,4 +299,84 @@ fn a_mesh_that_was_missing_is_noticed() {
     session.replace("other.ply", &mesh(2));
     session.await_picture("other.png");
     window.finish();
+}
+
+#[test]
+#[ignore = "needs a display and a Vulkan driver"]
+fn a_kernel_that_is_saved_is_read_again() {
+    let session = Session::new();
+    let good = CompiledKernel::committed();
+    good.write(session.folder());
+    let mut window = session.start(
+        &[
+            "balls",
+            "--backend",
+            "gpu",
+            "--spirv",
+            "naga",
+            "--kernel",
+            "oktant.spv",
+            "--size",
+            SIZE,
+        ],
+        "wait settled
+        key I
+        wait settled
+        screenshot first.png
+        wait reloaded
+        expect message was read again
+        wait settled
+        screenshot exchanged.png
+        wait reloaded
+        expect message InvalidId
+        expect backend gpu
+        drag left 30 0
+        drag left -30 0
+        wait settled
+        expect backend gpu
+        screenshot refused.png
+        wait reloaded
+        expect message no entry point `hits`
+        screenshot missing.png
+        wait reloaded
+        expect message was read again
+        wait settled
+        expect backend gpu
+        screenshot again.png",
+    );
+    let first = session.await_picture("first.png");
+    // Hits in the place of colours.
+    let exchanged = good.exchanged("render_plain", "hits");
+    exchanged.write(session.folder());
+    let hits = session.await_picture("exchanged.png");
+    assert!(agreement(&first, &hits) < 0.99, "another kernel runs");
+    good.senseless().write(session.folder());
+    let refused = session.await_picture("refused.png");
+    good.renamed("hits", "hats").write(session.folder());
+    session.await_picture("missing.png");
+    good.write(session.folder());
+    let again = session.await_picture("again.png");
+    let report = window.finish();
+    assert_same("the first kernel again", &again, &first);
+    let below = |image: &super::Image| image::imageops::crop_imm(image, 0, 200, 640, 280).to_image();
+    assert_same("the old kernel goes on", &below(&refused), &below(&hits));
+    assert!(report.standard_error.contains("the old kernel goes on"), "{report}");
+}
+
+#[test]
+#[ignore = "needs a display and a Vulkan driver"]
+fn a_kernel_without_a_gpu_is_refused() {
+    let session = Session::new();
+    CompiledKernel::committed().write(session.folder());
+    let report = session
+        .start_with(&["view", "balls", "--backend", "cpu", "--kernel", "oktant.spv"])
+        .wait();
+    assert_eq!(report.code, Some(2), "{report}");
+    // A software adapter is none that is taken without being asked for.
+    let mut window = session.command(&["view", "balls", "--kernel", "oktant.spv"]);
+    window.env("VK_ICD_FILENAMES", "/nowhere");
+    let output = window.output().expect("the program starts");
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(error.contains("The kernel needs a GPU"), "{error}");
 }

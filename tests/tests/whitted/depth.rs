@@ -158,6 +158,7 @@ fn both_back_ends_agree_at_every_depth() {
     let gpu = Gpu::open(&GpuOptions {
         software: true,
         module: ModulePath::Auto,
+        ..GpuOptions::default()
     });
     let gpu = Arc::new(gpu.expect("a Vulkan driver is installed"));
     let mut stage = hall_of_mirrors();

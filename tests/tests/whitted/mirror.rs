@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3, vec3};
 use oktant::balls::balls;
 use oktant::scene::Scene;
+use oktant::slots::Slots;
 use oktant_shared::camera::Camera;
 use oktant_shared::environment::Environment;
 use oktant_shared::frame::Frame;
@@ -101,9 +102,14 @@ fn seen_in_mirror(scene: &Scene, frame: &Frame, pixel: u32, hit: &Hit) -> Hit {
     let (x, y) = (pixel % camera.width, pixel / camera.width);
     let ray = camera.ray(x as f32 + 0.5, y as f32 + 0.5, 0.0);
     let world = scene.world();
-    let surface = Surface::new::<true>(frame, &world, &ray, hit);
+    let surface = Surface::new::<true>(frame, &world, &ray, &Slots::of(scene).placed(hit));
     let onwards = Ray::new(surface.front_origin(), reflected(ray.direction, surface.normal));
-    closest_hit::<Standard, true>(frame, &world, &onwards)
+    let seen = closest_hit::<Standard, true>(frame, &world, &onwards);
+    if seen.triangle & PLANE != 0 {
+        seen
+    } else {
+        world.scene.identified(seen)
+    }
 }
 
 /// Oracle: the same scene without the mirror, seen by the mirrored camera. The same triangle on 99.9 % of the mirror's

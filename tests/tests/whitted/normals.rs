@@ -2,9 +2,9 @@
 
 use glam::{Vec3, vec3};
 use oktant::mesh::Mesh;
-use oktant::octree::OctreeOptions;
 use oktant::progress::silent;
 use oktant::scene::Scene;
+use oktant::structure::StructureOptions;
 use oktant_shared::environment::Environment;
 use oktant_shared::frame::Frame;
 use oktant_shared::material::{Material, SMOOTH_NORMALS};
@@ -251,7 +251,7 @@ fn needles_have_a_normal() {
         stage.mesh(&mesh, 0);
         stage.model.environment = Environment::constant(Vec3::ONE);
         let model = stage.model;
-        let Ok(scene) = Scene::of_model(model, &OctreeOptions::default(), &silent) else {
+        let Ok(scene) = Scene::of_model(model, &StructureOptions::default(), &silent) else {
             // No area in f64 either.
             continue;
         };

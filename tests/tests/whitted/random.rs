@@ -276,6 +276,7 @@ fn every_pixel_is_a_color_on_the_gpu() {
     let gpu = Gpu::open(&GpuOptions {
         software: true,
         module: ModulePath::Auto,
+        ..GpuOptions::default()
     });
     let gpu = Arc::new(gpu.expect("a Vulkan driver is installed"));
     let plan = Plan {

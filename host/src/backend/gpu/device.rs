@@ -1,5 +1,7 @@
 //! Choosing and opening the device.
 
+use super::kernel::Kernel;
+use super::kernel_error::KernelError;
 use super::kernel_module::{ModulePath, create_module};
 use super::layouts::Layouts;
 use super::resources::PLAIN;
@@ -8,12 +10,14 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Which device to take and how to hand it the kernel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct GpuOptions {
     /// Take a software adapter (lavapipe, WARP) where there is nothing better.
     pub software: bool,
     /// How the kernel reaches the driver.
     pub module: ModulePath,
+    /// The kernel to run in the place of the one that is part of the program.
+    pub kernel: Option<Arc<Kernel>>,
 }
 
 /// An open device with the kernel.
@@ -30,7 +34,8 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// Whether the kernel is passed through to the driver unchanged.
     pub passthrough: bool,
-    pub(super) layouts: Layouts,
+    pub(super) layouts: Arc<Layouts>,
+    options: GpuOptions,
     module: wgpu::ShaderModule,
     pipelines: Mutex<HashMap<&'static str, Arc<wgpu::ComputePipeline>>>,
     failure: Arc<Mutex<Option<String>>>,
@@ -62,7 +67,8 @@ impl Gpu {
     ///
     /// # Errors
     /// [`BackendError::NoAdapter`] where there is none that the options admit, [`BackendError::NoDevice`] where the
-    /// driver refuses, [`BackendError::Failed`] where it cannot compile the kernel.
+    /// driver refuses, [`BackendError::Failed`] where it cannot compile the kernel; [`BackendError::KernelWithoutGpu`] and
+    /// [`BackendError::Kernel`] in the place of the first and the last where the options name a kernel.
     pub fn open(options: &GpuOptions) -> Result<Self, BackendError> {
         let instance = Self::instance();
         let adapters = Self::adapters(&instance);
@@ -71,11 +77,15 @@ impl Gpu {
             .into_iter()
             .find(|adapter| options.software || adapter.get_info().device_type != wgpu::DeviceType::Cpu)
             .ok_or_else(|| {
-                BackendError::NoAdapter(if found == 0 {
+                let reason = if found == 0 {
                     "no Vulkan, Metal or Direct3D 12 driver answers".into()
                 } else {
                     "only a software adapter".into()
-                })
+                };
+                match options.kernel {
+                    Some(_) => BackendError::KernelWithoutGpu(reason),
+                    None => BackendError::NoAdapter(reason),
+                }
             })?;
         let info = adapter.get_info();
         let name = format!("{} ({})", info.name, info.backend);
@@ -114,12 +124,9 @@ impl Gpu {
             }
         });
 
-        let layouts = Layouts::new(&device);
+        let layouts = Arc::new(Layouts::new(&device));
         let (module, passthrough) =
-            create_module(&device, info.backend, options.module).map_err(|reason| BackendError::Failed {
-                adapter: name.clone(),
-                reason,
-            })?;
+            load_kernel(&device, info.backend, options).map_err(|reason| failed(&name, options, &reason))?;
         let gpu = Gpu {
             name,
             instance,
@@ -128,6 +135,7 @@ impl Gpu {
             queue,
             passthrough,
             layouts,
+            options: options.clone(),
             module,
             pipelines: Mutex::default(),
             failure,
@@ -135,6 +143,49 @@ impl Gpu {
         // The one that most need, so that a driver that cannot is found out now.
         gpu.pipeline(PLAIN)?;
         Ok(gpu)
+    }
+
+    /// The same device with another kernel, and with the pipelines that this one has made so far. This one goes on as
+    /// before, whatever comes of it.
+    ///
+    /// # Errors
+    /// [`BackendError::Kernel`] where the driver or naga does not take the kernel or one of the pipelines.
+    pub fn with_kernel(&self, kernel: Arc<Kernel>) -> Result<Self, BackendError> {
+        let options = GpuOptions {
+            kernel: Some(kernel),
+            ..self.options.clone()
+        };
+        let (module, passthrough) = load_kernel(&self.device, self.adapter.get_info().backend, &options)
+            .map_err(|reason| failed(&self.name, &options, &reason))?;
+        let gpu = Gpu {
+            name: self.name.clone(),
+            instance: self.instance.clone(),
+            adapter: self.adapter.clone(),
+            device: self.device.clone(),
+            queue: self.queue.clone(),
+            passthrough,
+            layouts: self.layouts.clone(),
+            options,
+            module,
+            pipelines: Mutex::default(),
+            failure: self.failure.clone(),
+        };
+        let entries: Vec<_> = {
+            let pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+            pipelines.keys().copied().collect()
+        };
+        for entry in entries {
+            gpu.pipeline(entry)?;
+        }
+        Ok(gpu)
+    }
+
+    /// Makes something of the kernel on the device.
+    ///
+    /// # Errors
+    /// [`BackendError::Failed`] or [`BackendError::Kernel`] where the device finds something wrong with it.
+    pub(crate) fn attempt<T>(&self, work: impl FnOnce() -> T) -> Result<T, BackendError> {
+        scoped(&self.device, work).map_err(|reason| self.failed(&reason))
     }
 
     /// The compiled kernel, for pipelines of one's own; its entry points `present_vertex` and `present_fragment` show a
@@ -176,10 +227,7 @@ impl Gpu {
     }
 
     pub(super) fn failed(&self, reason: &str) -> BackendError {
-        BackendError::Failed {
-            adapter: self.name.clone(),
-            reason: reason.into(),
-        }
+        failed(&self.name, &self.options, reason)
     }
 
     pub(super) fn encoder(&self) -> wgpu::CommandEncoder {
@@ -190,12 +238,64 @@ impl Gpu {
     /// The pipeline of an entry point, made on first use.
     pub(super) fn pipeline(&self, entry: &'static str) -> Result<Arc<wgpu::ComputePipeline>, BackendError> {
         let mut pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
-        let pipeline = pipelines
-            .entry(entry)
-            .or_insert_with(|| Arc::new(create_pipeline(&self.device, &self.module, &self.layouts, entry)))
-            .clone();
+        let pipeline = match pipelines.get(entry) {
+            Some(pipeline) => pipeline.clone(),
+            None => {
+                if let Some(kernel) = &self.options.kernel {
+                    kernel.check(entry)?;
+                }
+                let made = self.attempt(|| create_pipeline(&self.device, &self.module, &self.layouts, entry))?;
+                pipelines.entry(entry).or_insert(Arc::new(made)).clone()
+            }
+        };
         self.check()?;
         Ok(pipeline)
+    }
+}
+
+/// Hands the kernel of the options to a device; returns also whether it was passed through.
+fn load_kernel(
+    device: &wgpu::Device,
+    backend: wgpu::Backend,
+    options: &GpuOptions,
+) -> Result<(wgpu::ShaderModule, bool), String> {
+    let create = |kernel: &Kernel| create_module(device, backend, options.module, kernel);
+    scoped(device, || match &options.kernel {
+        Some(kernel) => create(kernel),
+        None => create(&Kernel::built_in()),
+    })?
+}
+
+/// Does something on a device. What goes wrong meanwhile is returned, and is not held against the device from then on.
+fn scoped<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, String> {
+    let filters = [
+        wgpu::ErrorFilter::OutOfMemory,
+        wgpu::ErrorFilter::Internal,
+        wgpu::ErrorFilter::Validation,
+    ];
+    let scopes = filters.map(|filter| device.push_error_scope(filter));
+    let result = work();
+    // The innermost first.
+    let mut error = None;
+    for scope in scopes.into_iter().rev() {
+        error = error.or(pollster::block_on(scope.pop()));
+    }
+    match error {
+        Some(error) => Err(one_line(&error.to_string())),
+        None => Ok(result),
+    }
+}
+
+/// What went wrong on a device with these options.
+fn failed(adapter: &str, options: &GpuOptions, reason: &str) -> BackendError {
+    let (adapter, reason) = (adapter.into(), reason.into());
+    match options.kernel.as_ref().and_then(|kernel| kernel.path()) {
+        Some(path) => BackendError::Kernel(KernelError::Refused {
+            path: path.into(),
+            adapter,
+            reason,
+        }),
+        None => BackendError::Failed { adapter, reason },
     }
 }
 

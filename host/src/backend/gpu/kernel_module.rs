@@ -1,5 +1,7 @@
 //! The compiled kernel and the two ways it can go to a driver.
 
+use super::kernel::Kernel;
+use crate::accident::caught_silently;
 use serde::Deserialize;
 use std::borrow::Cow;
 
@@ -18,6 +20,12 @@ pub enum ModulePath {
 /// What the builder wrote about the compiled kernel.
 #[derive(Clone, Debug, Deserialize)]
 pub struct KernelManifest {
+    /// SHA-256 of the module, in hexadecimal digits.
+    pub sha256: String,
+    /// The target triple the module was compiled for.
+    pub target: String,
+    /// `BINDINGS` of the module's sources; none where they are older than that.
+    pub bindings: Option<u32>,
     /// Version of rust-gpu.
     pub rust_gpu: String,
     /// `rustc --version` of the compiler.
@@ -28,7 +36,7 @@ pub struct KernelManifest {
 }
 
 /// An entry point of the compiled kernel.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Eq)]
 pub struct KernelEntryPoint {
     /// Its name.
     pub name: String,
@@ -49,6 +57,7 @@ pub(super) fn create_module(
     device: &wgpu::Device,
     backend: wgpu::Backend,
     path: ModulePath,
+    kernel: &Kernel,
 ) -> Result<(wgpu::ShaderModule, bool), String> {
     let possible = backend == wgpu::Backend::Vulkan && device.features().contains(wgpu::Features::PASSTHROUGH_SHADERS);
     let passthrough = match path {
@@ -57,9 +66,9 @@ pub(super) fn create_module(
         ModulePath::Passthrough if possible => true,
         ModulePath::Passthrough => return Err("it cannot take the kernel unchanged; leave out --spirv".into()),
     };
-    let (words, manifest) = compiled_kernel();
+    let words = kernel.words.clone();
     let module = if passthrough {
-        let entry_points = manifest
+        let entry_points = kernel
             .entry_points
             .iter()
             .map(|entry| wgpu::PassthroughShaderEntryPoint {
@@ -67,8 +76,8 @@ pub(super) fn create_module(
                 workgroup_size: entry.workgroup.unwrap_or([1; 3]).into(),
             })
             .collect();
-        // SAFETY: the module is the one that was compiled from `kernel` and that the tests run; the host validates all
-        // indices it relies on.
+        // SAFETY: the module is the one that was compiled from `kernel` and that the tests run, and the host validates all
+        // indices it relies on; or it is one that the person has compiled and asked for, whose parts are theirs.
         unsafe {
             device.create_shader_module_passthrough(wgpu::ShaderModuleDescriptorPassthrough {
                 label: Some("oktant"),
@@ -78,8 +87,8 @@ pub(super) fn create_module(
             })
         }
     } else {
-        // SAFETY: as above; loops end and indices are in range by construction.
-        unsafe {
+        // SAFETY: as above; loops end and indices are in range by construction, or that is the person's business.
+        let translated = || unsafe {
             device.create_shader_module_trusted(
                 wgpu::ShaderModuleDescriptor {
                     label: Some("oktant"),
@@ -87,6 +96,13 @@ pub(super) fn create_module(
                 },
                 wgpu::ShaderRuntimeChecks::unchecked(),
             )
+        };
+        match kernel.path() {
+            None => translated(),
+            // naga panics where a module makes no sense in some ways.
+            Some(_) => {
+                caught_silently(translated).map_err(|accident| format!("naga does not understand it: {accident}"))?
+            }
         }
     };
     Ok((module, passthrough))

@@ -1,10 +1,11 @@
 //! Which buffers the entry points take.
 
+use super::{LINE, TILE};
 use wgpu::BindGroupLayout;
 
 /// The layouts of all bind groups and pipelines; the doc comment of `kernel/src/lib.rs` says what is where.
 pub(super) struct Layouts {
-    /// Set 0 of the entry points that trace: nodes, references, triangles.
+    /// Set 0 of the entry points that trace: nodes, references, triangles, ids.
     pub scene: BindGroupLayout,
     /// Set 1 of those: the frame.
     pub frame: BindGroupLayout,
@@ -23,6 +24,14 @@ pub(super) struct Layouts {
     rays: wgpu::PipelineLayout,
     probes_of_one: wgpu::PipelineLayout,
     probes_of_two: wgpu::PipelineLayout,
+}
+
+/// Invocations in a workgroup of an entry point, as the host launches it.
+pub fn workgroup(entry: &str) -> [u32; 3] {
+    match entry {
+        "render" | "render_plain" | "render_general" | "hits" => [TILE, TILE, 1],
+        _ => [LINE, 1, 1],
+    }
 }
 
 impl Layouts {
@@ -56,7 +65,7 @@ impl Layouts {
                 immediate_size: 0,
             })
         };
-        let scene = group("scene", &[READ; 3]);
+        let scene = group("scene", &[READ; 4]);
         let frame = group("frame", &[wgpu::BufferBindingType::Uniform]);
         let picture = group("picture", &[WRITE; 2]);
         let hits = group("hits", &[WRITE]);
@@ -82,7 +91,7 @@ impl Layouts {
     /// The layout of an entry point's pipeline.
     pub fn pipeline(&self, entry: &str) -> &wgpu::PipelineLayout {
         match entry {
-            "render" | "render_plain" => &self.pixels,
+            "render" | "render_plain" | "render_general" => &self.pixels,
             "hits" => &self.pixel_hits,
             "probe_arithmetic" | "probe_color" => &self.probes_of_one,
             _ if entry.starts_with("probe_") => &self.probes_of_two,

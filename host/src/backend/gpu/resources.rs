@@ -6,12 +6,17 @@ use crate::scene::Scene;
 use bytemuck::NoUninit;
 use oktant_shared::frame::Frame;
 use oktant_shared::octree::Root;
+use oktant_shared::parts::Parts;
+use oktant_shared::plane::Plane;
 use wgpu::util::DeviceExt;
 
 /// A scene in the device's memory.
 pub struct GpuScene {
     pub(super) group: wgpu::BindGroup,
     pub(super) appearance: wgpu::BindGroup,
+    pub(super) parts: Parts,
+    /// The planes once more, for rays that the host casts.
+    pub(super) planes: Vec<Plane>,
     pub(super) root: Root,
     /// The entry point that renders it.
     pub(super) entry: &'static str,
@@ -45,7 +50,8 @@ impl Gpu {
         let nodes = self.input("nodes", &scene.nodes)?;
         let references = self.input("references", &scene.references)?;
         let triangles = self.input("triangles", &scene.triangles)?;
-        let geometry = [&nodes, &references, &triangles];
+        let ids = self.input("triangle ids", &scene.ids)?;
+        let geometry = [&nodes, &references, &triangles, &ids];
         let vertices = self.input("vertices", &scene.vertices)?;
         let coordinates = self.input("texture coordinates", &scene.coordinates)?;
         let material_ids = self.input("material ids", &scene.material_ids)?;
@@ -68,8 +74,14 @@ impl Gpu {
         Ok(GpuScene {
             group: self.group(&self.layouts.scene, &geometry),
             appearance: self.group(&self.layouts.appearance, &appearance),
+            parts: scene.parts,
+            planes: scene.planes.clone(),
             root: scene.root,
-            entry: if scene.is_plain() { PLAIN } else { "render" },
+            entry: match (scene.parts == Parts::default(), scene.is_plain()) {
+                (true, true) => PLAIN,
+                (true, false) => "render",
+                (false, _) => "render_general",
+            },
             bytes: geometry.iter().chain(&appearance).map(|buffer| buffer.size()).sum(),
         })
     }

@@ -1,9 +1,12 @@
 //! Values on the command line.
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use oktant::aov::Aov;
 use oktant::octree::OctreeOptions;
 use oktant::picture::{DEFAULT_SIZE, LARGEST_PICTURE, LARGEST_SIDE};
+use oktant::tree::BuildPreset;
 use oktant_shared::octree::MAX_DEPTH;
+use oktant_shared::parts::{BoxKind, TraversalKind, TriangleKind};
 
 /// Width and height in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,6 +68,41 @@ pub fn octree(text: &str) -> Result<Octree, String> {
         }
     }
     Ok(Octree(options))
+}
+
+macro_rules! names {
+    ($(#[$doc:meta])* $function:ident, $kind:ty) => {
+        $(#[$doc])*
+        pub fn $function() -> impl TypedValueParser<Value = $kind> {
+            let names = <$kind>::ALL.iter().map(|kind| kind.description().name);
+            PossibleValuesParser::new(names).try_map(|name| <$kind>::from_name(&name).ok_or("there is no such part"))
+        }
+    };
+}
+
+names!(
+    /// Reads the name of a traversal, and knows all of them.
+    traversal,
+    TraversalKind
+);
+names!(
+    /// Reads the name of a triangle test, and knows all of them.
+    triangle,
+    TriangleKind
+);
+names!(
+    /// Reads the name of a box test, and knows all of them.
+    box_test,
+    BoxKind
+);
+
+/// Reads the name of a way to build, and knows all of them.
+pub fn preset() -> impl TypedValueParser<Value = BuildPreset> {
+    let names = BuildPreset::ALL.map(BuildPreset::name);
+    PossibleValuesParser::new(names).try_map(|name| {
+        let preset = BuildPreset::ALL.into_iter().find(|preset| preset.name() == name);
+        preset.ok_or("there is no such way to build")
+    })
 }
 
 /// What is to be told of pixels beside their colour, each once.

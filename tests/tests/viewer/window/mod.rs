@@ -9,12 +9,13 @@ pub use report::{Report, value_in};
 use oktant::backend::Backend;
 use oktant::backend::cpu::Cpu;
 use oktant::mesh_source::MeshSource;
-use oktant::octree::OctreeOptions;
 use oktant::progress::silent;
 use oktant::scene::Scene;
+use oktant::structure::StructureOptions;
 use oktant::view::{Shading, View};
 use oktant_tests::program::oktant;
 use std::io::Read;
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, LazyLock};
 use std::thread;
@@ -37,6 +38,11 @@ impl Session {
         Session {
             folder: tempfile::tempdir().expect("there is a temporary folder"),
         }
+    }
+
+    /// Where it is.
+    pub fn folder(&self) -> &Path {
+        self.folder.path()
     }
 
     /// Writes a file; returns its name.
@@ -188,7 +194,7 @@ pub fn rendered_by_the_command(session: &Session, view: &View, size: [u32; 2]) -
 pub fn offline(view: &View, size: [u32; 2]) -> Image {
     static SCENE: LazyLock<Arc<Scene>> = LazyLock::new(|| {
         let mesh = MeshSource::Bunny.load(&silent).expect("the bunny is sound");
-        Arc::new(Scene::new(&mesh, &OctreeOptions::default(), &silent).expect("the bunny has triangles"))
+        Arc::new(Scene::new(&mesh, &StructureOptions::default(), &silent).expect("the bunny has triangles"))
     });
     let frame = view.frame(&SCENE, size[0], size[1]);
     let picture = Cpu::new(SCENE.clone())

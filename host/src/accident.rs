@@ -54,6 +54,15 @@ pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Accident> {
     panic::catch_unwind(AssertUnwindSafe(work)).map_err(|payload| Accident::new(payload.as_ref()))
 }
 
+/// As [`caught`], for libraries that panic where they should say what is wrong: nothing is printed meanwhile.
+pub fn caught_silently<T>(work: impl FnOnce() -> T) -> Result<T, Accident> {
+    let hook = panic::take_hook();
+    panic::set_hook(Box::new(|_| {}));
+    let result = caught(work);
+    panic::set_hook(hook);
+    result
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,0 +1,215 @@
+//! A compiled kernel: the one that is part of the program, or one from a file.
+
+use super::kernel_error::KernelError;
+use super::kernel_module::{KernelEntryPoint, KernelManifest, compiled_kernel};
+use super::layouts::workgroup;
+use oktant_shared::bindings::BINDINGS;
+use rspirv::dr::{Module, Operand, load_words};
+use rspirv::spirv::{ExecutionMode, ExecutionModel, MAGIC_NUMBER};
+use sha2::{Digest, Sha256};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What a kernel may have been compiled for: the last one is what the builder compiles for, and takes the others in.
+const TARGETS: [&str; 3] = [
+    "spirv-unknown-vulkan1.0",
+    "spirv-unknown-vulkan1.1",
+    "spirv-unknown-vulkan1.2",
+];
+
+/// Name of the manifest that the builder writes beside a kernel.
+const MANIFEST: &str = "manifest.toml";
+
+/// What the host launches or draws with whatever is asked for. What casts rays may be missing until it is needed.
+const ALWAYS_NEEDED: [&str; 4] = ["render_plain", "render", "render_general", "hits"];
+const DRAWS: [(&str, ExecutionModel); 2] = [
+    ("present_vertex", ExecutionModel::Vertex),
+    ("present_fragment", ExecutionModel::Fragment),
+];
+
+/// A compiled kernel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Kernel {
+    pub(super) words: Vec<u32>,
+    pub(super) entry_points: Vec<KernelEntryPoint>,
+    path: Option<PathBuf>,
+}
+
+impl Kernel {
+    /// The one that is part of the program.
+    pub fn built_in() -> Self {
+        let (words, manifest) = compiled_kernel();
+        Kernel {
+            words,
+            entry_points: manifest.entry_points,
+            path: None,
+        }
+    }
+
+    /// Reads the kernel in an `.spv` file and holds it against its manifest: the file of the same name that ends in
+    /// `.toml`, else `manifest.toml` in the same folder.
+    ///
+    /// # Errors
+    /// [`KernelError`], see there.
+    pub fn read(path: &Path) -> Result<Self, KernelError> {
+        let bytes = read(path)?;
+        let words: Vec<u32> = bytes
+            .chunks_exact(4)
+            .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
+            .collect();
+        if words.first() != Some(&MAGIC_NUMBER) {
+            return Err(KernelError::NotSpirv { path: path.into() });
+        }
+        let damaged = |reason: String| KernelError::Damaged {
+            path: path.into(),
+            reason,
+        };
+        if bytes.len() % 4 != 0 {
+            return Err(damaged(format!("{} bytes are no whole words", bytes.len())));
+        }
+        let module = load_words(&words).map_err(|error| damaged(error.to_string()))?;
+        check_manifest(path, &bytes)?;
+        for (entry, model) in DRAWS {
+            if !entries(&module).any(|(of, name, _)| name == entry && of == model) {
+                return Err(KernelError::NoEntryPoint {
+                    path: path.into(),
+                    entry,
+                });
+            }
+        }
+        let entry_points = entries(&module)
+            .map(|(model, name, function)| KernelEntryPoint {
+                name: name.into(),
+                workgroup: (model == ExecutionModel::GLCompute)
+                    .then(|| local_size(&module, function))
+                    .flatten(),
+            })
+            .collect();
+        let kernel = Kernel {
+            words,
+            entry_points,
+            path: Some(path.into()),
+        };
+        ALWAYS_NEEDED.iter().try_for_each(|entry| kernel.check(entry))?;
+        Ok(kernel)
+    }
+
+    /// The file it was read from; none of the one that is part of the program.
+    pub fn path(&self) -> Option<&Path> {
+        self.path.as_deref()
+    }
+
+    /// The files that [`Kernel::read`] looks at, there or not.
+    pub fn files(path: &Path) -> Vec<PathBuf> {
+        let [own, common] = manifests(path);
+        vec![path.into(), own, common]
+    }
+
+    /// Whether it has this entry point, in workgroups of the size that the host launches.
+    ///
+    /// # Errors
+    /// [`KernelError::NoEntryPoint`] and [`KernelError::Workgroup`].
+    pub(super) fn check(&self, entry: &'static str) -> Result<(), KernelError> {
+        let path = self.path.clone().unwrap_or_default();
+        let found = self.entry_points.iter().find(|found| found.name == entry);
+        let wanted = workgroup(entry);
+        match found.and_then(|found| found.workgroup) {
+            None => Err(KernelError::NoEntryPoint { path, entry }),
+            Some(is) if is != wanted => Err(KernelError::Workgroup {
+                path,
+                entry,
+                is,
+                wanted,
+            }),
+            Some(_) => Ok(()),
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, KernelError> {
+    fs::read(path).map_err(|error| KernelError::Read {
+        path: path.into(),
+        reason: error.to_string(),
+    })
+}
+
+/// Where the manifest of a kernel may be, in this order.
+fn manifests(path: &Path) -> [PathBuf; 2] {
+    [path.with_extension("toml"), path.with_file_name(MANIFEST)]
+}
+
+/// Holds a kernel against its manifest.
+fn check_manifest(path: &Path, bytes: &[u8]) -> Result<(), KernelError> {
+    let [own, common] = manifests(path);
+    let Some(place) = [&own, &common].into_iter().find(|place| place.exists()) else {
+        return Err(KernelError::NoManifest {
+            path: path.into(),
+            own,
+            common,
+        });
+    };
+    let malformed = |reason: String| KernelError::Manifest {
+        path: place.clone(),
+        reason,
+    };
+    let text = String::from_utf8(read(place)?).map_err(|_| malformed("it is not text".into()))?;
+    let manifest: KernelManifest =
+        toml::from_str(&text).map_err(|error| malformed(error.message().lines().collect::<Vec<_>>().join(" ")))?;
+    let hash: String = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    if manifest.sha256 != hash {
+        let first = |hash: &str| hash.chars().take(12).collect();
+        return Err(KernelError::Hash {
+            path: path.into(),
+            manifest: place.clone(),
+            is: first(&hash),
+            described: first(&manifest.sha256),
+        });
+    }
+    if !TARGETS.contains(&manifest.target.as_str()) {
+        return Err(KernelError::Target {
+            path: path.into(),
+            target: manifest.target,
+            wanted: TARGETS[TARGETS.len() - 1],
+        });
+    }
+    if manifest.bindings != Some(BINDINGS) {
+        return Err(KernelError::Bindings {
+            path: path.into(),
+            bindings: manifest.bindings,
+        });
+    }
+    Ok(())
+}
+
+/// The entry points of a module: execution model, name and function.
+fn entries(module: &Module) -> impl Iterator<Item = (ExecutionModel, &str, u32)> {
+    module
+        .entry_points
+        .iter()
+        .filter_map(|entry| match entry.operands.as_slice() {
+            [
+                Operand::ExecutionModel(model),
+                Operand::IdRef(function),
+                Operand::LiteralString(name),
+                ..,
+            ] => Some((*model, name.as_str(), *function)),
+            _ => None,
+        })
+}
+
+/// Invocations in a workgroup of an entry point, if it says so.
+fn local_size(module: &Module, function: u32) -> Option<[u32; 3]> {
+    module
+        .execution_modes
+        .iter()
+        .find_map(|mode| match mode.operands.as_slice() {
+            [
+                Operand::IdRef(of),
+                Operand::ExecutionMode(ExecutionMode::LocalSize),
+                Operand::LiteralBit32(x),
+                Operand::LiteralBit32(y),
+                Operand::LiteralBit32(z),
+            ] if *of == function => Some([*x, *y, *z]),
+            _ => None,
+        })
+}

@@ -1,0 +1,221 @@
+//! What rays are traced through: the arrays of the structure that a traversal reads.
+
+mod bvh2;
+mod figures;
+mod octants;
+mod validate;
+
+pub use figures::Figures;
+pub use validate::InvalidStructure;
+
+use crate::grid::{Grid, GridOptions};
+use crate::hittable::Hittable;
+use crate::mesh::Mesh;
+use crate::octree::{Octree, OctreeError, OctreeOptions, duplicates, root};
+use crate::progress::Progress;
+use crate::tree::{BinaryTree, BuildPreset, CollapseOptions, TreeError, WideNode};
+use glam::{UVec3, UVec4, Vec3, uvec4};
+use oktant_shared::grid::Raster;
+use oktant_shared::octree::{Node, Root};
+use oktant_shared::parts::{Parts, TraversalKind};
+
+/// Which structure to build, and how.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StructureOptions {
+    /// What rays are traced with; the structure is the one that the traversal reads.
+    pub parts: Parts,
+    /// What the build spends its time on, if it is a tree of boxes.
+    pub preset: BuildPreset,
+    /// Limits, if it is the octree.
+    pub octree: OctreeOptions,
+    /// Limits, if it is the grid.
+    pub grid: GridOptions,
+}
+
+/// A structure over the triangles of a mesh, as flat arrays.
+#[derive(Clone, Debug)]
+pub struct Structure {
+    /// What it was built for.
+    pub traversal: TraversalKind,
+    /// The cube around everything.
+    pub root: Root,
+    /// The nodes, as the traversal reads them.
+    pub nodes: Vec<UVec4>,
+    /// Slots of triangles, leaf by leaf; empty where each triangle is in one leaf.
+    pub references: Vec<u32>,
+    /// The triangles' ids by slot.
+    pub ids: Vec<u32>,
+    /// Slots of triangles that no ray is to hit, for they lie exactly on one with a lower id: which of the two is nearer
+    /// would be a matter of rounding.
+    pub buried: Vec<u32>,
+    /// Triangles left out because they have no area.
+    pub degenerate: u32,
+    /// Triangles left out because they lie exactly on one with a lower id.
+    pub duplicates: u32,
+}
+
+impl Structure {
+    /// Builds what the options ask for; the same one for the same mesh, whatever the number of threads.
+    ///
+    /// # Errors
+    /// [`OctreeError`] where the mesh has nothing to build it from.
+    pub fn build(mesh: &Mesh, options: &StructureOptions, progress: Progress<'_>) -> Result<Self, OctreeError> {
+        match options.parts.traversal {
+            TraversalKind::Octree => {
+                let octree = Octree::build(mesh, &options.octree, progress)?;
+                Ok(Structure {
+                    traversal: options.parts.traversal,
+                    root: octree.root,
+                    nodes: in_pairs(&octree.nodes),
+                    references: octree.references,
+                    ids: (0..mesh.triangles.len() as u32).collect(),
+                    buried: Vec::new(),
+                    degenerate: octree.degenerate,
+                    duplicates: octree.duplicates,
+                })
+            }
+            TraversalKind::Octants => {
+                let tree = BinaryTree::build(mesh, options.preset, progress)?;
+                let (low, high) = (tree.nodes[0].low, tree.nodes[0].high);
+                let blank = [UVec4::ZERO; oktant_shared::octants::NODE_VECTORS as usize];
+                let margin = octants::margin(&root(low, high, 0)?);
+                let encode = |node: &WideNode| octants::words(node, margin);
+                let wide = tree.to_wide(&CollapseOptions::default(), blank, encode);
+                let nodes = bytemuck::allocation::cast_vec(wide.nodes);
+                Self::of_tree(
+                    options.parts.traversal,
+                    low,
+                    high,
+                    nodes,
+                    wide.order,
+                    tree.degenerate,
+                    mesh,
+                )
+            }
+            TraversalKind::Bvh2 => {
+                let tree = BinaryTree::build(mesh, options.preset, progress)?;
+                let (low, high) = (tree.nodes[0].low, tree.nodes[0].high);
+                let nodes = bvh2::words(&tree);
+                Self::of_tree(
+                    options.parts.traversal,
+                    low,
+                    high,
+                    nodes,
+                    tree.order,
+                    tree.degenerate,
+                    mesh,
+                )
+            }
+            TraversalKind::Grid => {
+                let grid = Grid::build(mesh, &options.grid, progress)?;
+                let mut nodes = grid.raster.words().to_vec();
+                nodes.append(&mut in_pairs(&grid.cells));
+                Ok(Structure {
+                    traversal: options.parts.traversal,
+                    root: grid.root,
+                    nodes,
+                    references: grid.references,
+                    ids: grid.ids,
+                    buried: Vec::new(),
+                    degenerate: grid.degenerate,
+                    duplicates: grid.duplicates,
+                })
+            }
+            TraversalKind::Brute => {
+                let hittable = Hittable::of(mesh)?;
+                Ok(Structure {
+                    traversal: options.parts.traversal,
+                    root: root(hittable.low, hittable.high, 0)?,
+                    nodes: vec![uvec4(hittable.ids.len() as u32, 0, 0, 0)],
+                    references: Vec::new(),
+                    ids: hittable.ids,
+                    buried: Vec::new(),
+                    degenerate: hittable.degenerate,
+                    duplicates: hittable.duplicates,
+                })
+            }
+        }
+    }
+
+    fn of_tree(
+        traversal: TraversalKind,
+        low: Vec3,
+        high: Vec3,
+        nodes: Vec<UVec4>,
+        ids: Vec<u32>,
+        degenerate: u32,
+        mesh: &Mesh,
+    ) -> Result<Self, OctreeError> {
+        let buried = duplicates(mesh, &ids);
+        // As much room as the octree's cube has: for rays from so far away that f32 does not tell where they pass.
+        let room = Vec3::splat((high - low).max_element() / 64.0);
+        Ok(Structure {
+            traversal,
+            root: Root {
+                low: low - room,
+                high: high + room,
+                ..root(low, high, 0)?
+            },
+            nodes,
+            references: Vec::new(),
+            ids,
+            degenerate,
+            duplicates: buried.len() as u32,
+            buried,
+        })
+    }
+
+    /// A structure without triangles.
+    pub fn empty(traversal: TraversalKind) -> Self {
+        let words = match traversal {
+            TraversalKind::Octants => oktant_shared::octants::NODE_VECTORS,
+            TraversalKind::Octree | TraversalKind::Brute => 1,
+            TraversalKind::Bvh2 => oktant_shared::bvh2::NODE_VECTORS,
+            TraversalKind::Grid => 3,
+        };
+        let root = Octree::empty().root;
+        let mut nodes = vec![UVec4::ZERO; words as usize];
+        if traversal == TraversalKind::Bvh2 {
+            nodes[0].w = oktant_shared::bvh2::LEAF;
+            nodes[2].w = oktant_shared::bvh2::LEAF;
+        }
+        if traversal == TraversalKind::Grid {
+            let one = Raster {
+                cells: UVec3::ONE,
+                low: root.low,
+                cell: root.size(),
+            };
+            nodes[..2].copy_from_slice(&one.words());
+        }
+        Structure {
+            traversal,
+            root,
+            nodes,
+            references: Vec::new(),
+            ids: Vec::new(),
+            buried: Vec::new(),
+            degenerate: 0,
+            duplicates: 0,
+        }
+    }
+}
+
+impl From<TreeError> for OctreeError {
+    fn from(error: TreeError) -> Self {
+        match error {
+            TreeError::NoArea => OctreeError::NoArea,
+            TreeError::Extent(extent) => OctreeError::Extent(extent),
+        }
+    }
+}
+
+/// Nodes two by two in words; an odd one is followed by an empty leaf.
+fn in_pairs(nodes: &[Node]) -> Vec<UVec4> {
+    nodes
+        .chunks(2)
+        .map(|pair| {
+            let second = pair.get(1).copied().unwrap_or(Node { first: 0, count: 0 });
+            uvec4(pair[0].first, pair[0].count, second.first, second.count)
+        })
+        .collect()
+}

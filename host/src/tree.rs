@@ -1,0 +1,75 @@
+//! Bounding volume hierarchies: a binary tree of tight boxes, and trees of up to eight children made of it, whose
+//! children lie in the slots of octants. Each triangle is in them once.
+
+mod binary;
+mod bins;
+mod collapse;
+mod emission;
+mod items;
+mod metrics;
+mod morton;
+mod octants;
+mod pages;
+mod place;
+mod preset;
+mod radix;
+mod reinsertion;
+mod sah;
+mod slots;
+mod split;
+mod wide;
+
+pub use binary::{BinaryNode, BinaryTree, MAX_BINARY_DEPTH};
+pub use collapse::CollapseOptions;
+pub use emission::WideArrays;
+pub use metrics::{BinaryFigures, Costs, WideFigures};
+pub use pages::Pages;
+pub use slots::Placing;
+pub use wide::{MAX_LEAF, WIDTH, WideChild, WideNode, WideTree};
+
+use crate::octree::{LARGEST_EXTENT, SMALLEST_EXTENT};
+
+/// What a build spends its time on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum BuildPreset {
+    /// The shortest build: sorted Morton codes, octant by octant.
+    Fast,
+    /// The best tree that a fraction of a second a million triangles allows.
+    #[default]
+    Balanced,
+    /// The best tree known, in seconds.
+    Quality,
+}
+
+impl BuildPreset {
+    /// All of them, the quickest build first.
+    pub const ALL: [BuildPreset; 3] = [BuildPreset::Fast, BuildPreset::Balanced, BuildPreset::Quality];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            BuildPreset::Fast => "fast",
+            BuildPreset::Balanced => "balanced",
+            BuildPreset::Quality => "quality",
+        }
+    }
+}
+
+/// Why there is no tree for a mesh.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TreeError {
+    /// Nothing to see.
+    #[error("The mesh has no triangle with an area; give one that has.")]
+    NoArea,
+    /// Beyond what single precision can compute with.
+    #[error(
+        "The mesh is {0:e} units wide; scale it to between {SMALLEST_EXTENT:e} and {LARGEST_EXTENT:e}, where single \
+         precision can tell its triangles apart."
+    )]
+    Extent(f32),
+}
+
+/// A broken rule of a tree, in words; a bug of whoever made it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("The tree is not valid: {0}. This is a bug; please report it with the mesh.")]
+pub struct InvalidTree(pub String);

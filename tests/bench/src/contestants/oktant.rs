@@ -1,0 +1,64 @@
+//! oktant's default parts, built in three ways.
+
+use crate::contestant::{Contestant, Entry, Failure};
+use oktant::mesh::Mesh;
+use oktant::progress::silent;
+use oktant::scene::Scene;
+use oktant::structure::StructureOptions;
+use oktant::tree::BuildPreset;
+use oktant_shared::hit::Hit;
+use oktant_shared::ray::Ray;
+use oktant_shared::traversal::{Standard, Traversal};
+
+struct Oktant(Scene);
+
+impl Contestant for Oktant {
+    fn closest(&self, rays: &[Ray], hits: &mut [Hit]) {
+        let scene = self.0.view();
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = scene.identified(Standard::closest_hit(&scene, ray));
+        }
+    }
+
+    fn any(&self, rays: &[Ray], found: &mut [u8]) {
+        let scene = self.0.view();
+        for (ray, found) in rays.iter().zip(found) {
+            *found = u8::from(Standard::any_hit(&scene, ray));
+        }
+    }
+
+    fn bytes(&self) -> Option<usize> {
+        Some(self.0.structure_bytes() + size_of_val(self.0.triangles.as_slice()))
+    }
+}
+
+fn build(who: &'static str, mesh: &Mesh, preset: BuildPreset) -> Result<Box<dyn Contestant>, Failure> {
+    let options = StructureOptions {
+        preset,
+        ..StructureOptions::default()
+    };
+    let scene = Scene::new(mesh, &options, &silent).map_err(|error| Failure {
+        who,
+        reason: error.to_string(),
+    })?;
+    Ok(Box::new(Oktant(scene)))
+}
+
+macro_rules! entry {
+    ($name:literal, $preset:ident) => {
+        Entry {
+            name: $name,
+            is_ours: true,
+            build: |mesh, _| build($name, mesh, BuildPreset::$preset),
+        }
+    };
+}
+
+/// The default first.
+pub fn entries() -> Vec<Entry> {
+    vec![
+        entry!("oktant balanced", Balanced),
+        entry!("oktant fast", Fast),
+        entry!("oktant quality", Quality),
+    ]
+}

@@ -1,0 +1,235 @@
+//! Trees of boxes: their rules on meshes that are hard to part, and what they cost.
+
+#![cfg(test)]
+
+use glam::Vec3;
+use oktant::mesh::Mesh;
+use oktant::progress::silent;
+use oktant::shapes::stadium;
+use oktant::tree::{BinaryTree, BuildPreset, CollapseOptions, MAX_BINARY_DEPTH, MAX_LEAF, TreeError, WideTree};
+use oktant_tests::data::reference;
+use oktant_tests::meshes;
+use rayon::ThreadPoolBuilder;
+use std::time::Instant;
+
+fn bare(corners: impl IntoIterator<Item = [Vec3; 3]>) -> Mesh {
+    let positions: Vec<Vec3> = corners.into_iter().flatten().collect();
+    Mesh {
+        triangles: (0..positions.len() as u32 / 3)
+            .map(|id| [3 * id, 3 * id + 1, 3 * id + 2])
+            .collect(),
+        positions,
+        ..Mesh::default()
+    }
+}
+
+fn moved(mut mesh: Mesh, offset: Vec3) -> Mesh {
+    for position in &mut mesh.positions {
+        *position += offset;
+    }
+    mesh
+}
+
+const TRIANGLE: [Vec3; 3] = [Vec3::ZERO, Vec3::X, Vec3::Y];
+
+/// Meshes that builders find hard.
+fn hard_meshes() -> Vec<(&'static str, Mesh)> {
+    // Triangles with one centre, each around the one before.
+    let nested = (1..3_000).map(|size| [Vec3::NEG_X, Vec3::X - Vec3::Y, Vec3::X + Vec3::Y].map(|p| p * size as f32));
+    // A chain in which every step is twice the one before: nothing parts it evenly.
+    let doubling = (-100..39).map(|power| TRIANGLE.map(|p| (p + Vec3::X) * 2.0_f32.powi(power)));
+    let blades = (0..20_000).map(|blade| {
+        let turn = |blade: i32| {
+            let (y, x) = (blade as f32 * 3e-4).sin_cos();
+            Vec3::new(x, y, 0.0) * 100.0
+        };
+        [Vec3::ZERO, turn(blade), turn(blade + 1)]
+    });
+    vec![
+        ("one", bare([TRIANGLE])),
+        ("two", bare([TRIANGLE, TRIANGLE.map(|p| p + Vec3::Z)])),
+        ("five", bare((0..5).map(|i| TRIANGLE.map(|p| p + Vec3::Z * i as f32)))),
+        ("identical pair", bare([TRIANGLE; 2])),
+        ("identical", bare([TRIANGLE; 5_000])),
+        ("nested", bare(nested)),
+        ("doubling", bare(doubling)),
+        ("long fan", bare(blades)),
+        ("fan", meshes::fan_64()),
+        ("flat grid", meshes::flat_grid(64)),
+        ("soup", meshes::soup(20_000, 1)),
+        ("far away", moved(meshes::soup(5_000, 2), Vec3::new(1e6, -3e7, 2e5))),
+        ("room", meshes::room()),
+        ("stadium", stadium()),
+        ("icosphere", meshes::icosphere(5)),
+    ]
+}
+
+fn with_threads<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> R {
+    ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .unwrap()
+        .install(work)
+}
+
+#[test]
+fn every_preset_builds_valid_trees_of_hard_meshes() {
+    for (name, mesh) in hard_meshes() {
+        for preset in BuildPreset::ALL {
+            let binary = BinaryTree::build(&mesh, preset, &silent).unwrap();
+            binary
+                .validate(&mesh)
+                .unwrap_or_else(|error| panic!("{name} {preset:?}: {error}"));
+            for leaf in 1..=MAX_LEAF {
+                let options = CollapseOptions {
+                    leaf,
+                    ..CollapseOptions::default()
+                };
+                let wide = WideTree::of(&binary, &options);
+                wide.validate(&mesh, MAX_BINARY_DEPTH)
+                    .unwrap_or_else(|error| panic!("{name} {preset:?}: {error}"));
+            }
+        }
+    }
+}
+
+/// The cheapest wide tree with larger leaves allowed is no dearer.
+#[test]
+fn more_freedom_costs_no_more() {
+    for mesh in [meshes::room(), meshes::icosphere(5)] {
+        let binary = BinaryTree::build(&mesh, BuildPreset::Balanced, &silent).unwrap();
+        let costs = (1..=MAX_LEAF).map(|leaf| {
+            let options = CollapseOptions {
+                leaf,
+                ..CollapseOptions::default()
+            };
+            WideTree::of(&binary, &options).figures(&options.costs).cost
+        });
+        let costs: Vec<f64> = costs.collect();
+        assert!(costs.is_sorted_by(|a, b| *b <= a * 1.000_01), "{costs:?}");
+        assert!(costs[2] < 0.99 * costs[0], "leaves of several triangles pay: {costs:?}");
+    }
+}
+
+/// What a build spends more time on is worth it.
+#[test]
+fn presets_are_in_the_order_of_their_costs() {
+    for (name, mesh) in [("room", meshes::room()), ("icosphere", meshes::icosphere(6))] {
+        let options = CollapseOptions::default();
+        let [fast, balanced, quality] = BuildPreset::ALL.map(|preset| {
+            let tree = WideTree::build(&mesh, preset, &options, &silent).unwrap();
+            tree.figures(&options.costs).cost
+        });
+        println!("{name}: {fast} {balanced} {quality}");
+        assert!(
+            fast > balanced && balanced > quality,
+            "{name}: {fast} {balanced} {quality}"
+        );
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    for (name, mesh) in hard_meshes() {
+        for preset in BuildPreset::ALL {
+            let build = |threads| {
+                with_threads(threads, || {
+                    let binary = BinaryTree::build(&mesh, preset, &silent).unwrap();
+                    (WideTree::of(&binary, &CollapseOptions::default()), binary)
+                })
+            };
+            let (wide, binary) = build(1);
+            for threads in [2, 5] {
+                let (other_wide, other_binary) = build(threads);
+                let same = binary.nodes[..] == other_binary.nodes[..] && binary.order == other_binary.order;
+                assert!(same, "{name} {preset:?} {threads} threads: binary tree");
+                let same = wide.nodes == other_wide.nodes && wide.order == other_wide.order;
+                assert!(same, "{name} {preset:?} {threads} threads: wide tree");
+            }
+        }
+    }
+}
+
+#[test]
+fn triangles_without_area_are_left_out_and_counted() {
+    let flat = [Vec3::ZERO, Vec3::X, Vec3::X * 2.0];
+    for preset in BuildPreset::ALL {
+        let tree = BinaryTree::build(&bare([flat, TRIANGLE, flat]), preset, &silent).unwrap();
+        assert_eq!((tree.order, tree.degenerate), (vec![1], 2));
+        let build = |mesh: &Mesh| BinaryTree::build(mesh, preset, &silent).unwrap_err();
+        assert_eq!(build(&bare([flat])), TreeError::NoArea);
+        assert_eq!(build(&Mesh::default()), TreeError::NoArea);
+        assert_eq!(build(&bare([TRIANGLE.map(|p| p * 1e13)])), TreeError::Extent(1e13));
+        assert_eq!(build(&bare([TRIANGLE.map(|p| p * 1e-13)])), TreeError::Extent(1e-13));
+    }
+}
+
+/// `mesh` four times as fine: every triangle cut at the middles of its edges.
+fn finer(mesh: &Mesh) -> Mesh {
+    bare(mesh.triangles.iter().flat_map(|triangle| {
+        let [a, b, c] = triangle.map(|vertex| mesh.positions[vertex as usize]);
+        let (ab, bc, ca) = ((a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0);
+        [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+    }))
+}
+
+#[test]
+#[ignore = "measures time"]
+fn builds_are_measured() {
+    let load = |name: &str| oktant::ply::read(&reference(name), &silent).unwrap();
+    let dragon = load("meshes/dragon-871k.ply");
+    let finer = finer(&dragon);
+    println!(
+        "mesh, preset, threads; ms = binary tree + wide tree; cost of the wide and the binary tree; wide nodes; levels of \
+         the wide and the binary tree; children a node; triangles a leaf; bytes a triangle"
+    );
+    for (name, mesh) in [
+        ("bunny", load("meshes/bunny-69k.ply")),
+        ("dragon", dragon),
+        ("finer", finer),
+    ] {
+        for preset in BuildPreset::ALL {
+            for threads in [1, 2] {
+                let options = CollapseOptions::default();
+                let times = (0..5).map(|_| {
+                    with_threads(threads, || {
+                        let start = Instant::now();
+                        let binary = BinaryTree::build(&mesh, preset, &silent).unwrap();
+                        let middle = Instant::now();
+                        // Nodes of the size that kernels read.
+                        let arrays = binary.to_wide(&options, [0_u32; 20], |node| {
+                            let mut words = [0; 20];
+                            for (word, low) in words.iter_mut().zip(node.low.as_flattened()) {
+                                *word = low.to_bits();
+                            }
+                            words
+                        });
+                        assert_eq!(arrays.order.len(), binary.order.len());
+                        (start.elapsed(), middle - start)
+                    })
+                });
+                let (total, first) = times.min().unwrap();
+                let binary = BinaryTree::build(&mesh, preset, &silent).unwrap();
+                binary.validate(&mesh).unwrap();
+                let wide = WideTree::of(&binary, &options);
+                wide.validate(&mesh, MAX_BINARY_DEPTH).unwrap();
+                let (narrow, figures) = (binary.figures(&options.costs), wide.figures(&options.costs));
+                println!(
+                    "{name:8} {:9} {threads} {:8.1} = {:6.1} + {:6.1} {:7.2} {:7.2} {:8} {:3} ({:2}) {:5.2} {:5.2} {:5.1}",
+                    preset.name(),
+                    1e3 * total.as_secs_f64(),
+                    1e3 * first.as_secs_f64(),
+                    1e3 * (total - first).as_secs_f64(),
+                    figures.cost,
+                    narrow.cost,
+                    figures.nodes,
+                    figures.depth,
+                    narrow.depth,
+                    figures.children,
+                    figures.triangles,
+                    80.0 * figures.nodes as f64 / mesh.triangles.len() as f64 + 52.0,
+                );
+            }
+        }
+    }
+}
