@@ -4,12 +4,14 @@ mod arguments;
 mod bench;
 mod cast;
 mod check;
+mod compare;
 mod engine;
 mod info;
 mod kernels;
 mod progress_bar;
 mod render;
 mod scene_source;
+mod stability;
 mod view;
 
 use arguments::{Arguments, Command, ViewArguments};
@@ -36,6 +38,8 @@ pub fn run() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Cast(arguments) => cast::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Stability(arguments) => stability::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Kernels(arguments) => kernels::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),

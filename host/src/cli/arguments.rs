@@ -1,13 +1,17 @@
 //! What can stand on the command line.
 
 mod bench;
+mod compare;
 mod look;
 mod numbers;
 mod refusal;
+mod stability;
 mod values;
 
 pub use bench::{BenchArguments, BenchTable};
+pub use compare::CompareArguments;
 pub use look::{LookArguments, StereoArgument};
+pub use stability::StabilityArguments;
 pub use values::{Aovs, Octree, Size};
 
 use super::Failure;
@@ -45,6 +49,10 @@ pub enum Command {
     Cast(CastArguments),
     /// Measure the thesis's pictures and all parts on sets of rays, each checked by the oracle first.
     Bench(BenchArguments),
+    /// Say how far a picture is from another, in figures and as a picture.
+    Compare(CompareArguments),
+    /// Show where methods fail, and that the default does not.
+    Stability(StabilityArguments),
     /// Read scene files with all that they refer to, and say what is in them, or what is wrong.
     Check(CheckArguments),
     /// List the parts that can be exchanged, and the combinations that are offered.

@@ -81,7 +81,7 @@ fn is_chosen<T: PartialEq>(choice: &[T], one: &T) -> bool {
 }
 
 /// The CPU, the GPU, or both: of `auto` a GPU is a real one. With `--kernel` there must be one.
-fn devices(arguments: &EngineArguments) -> Result<Vec<Device>, Failure> {
+pub fn devices(arguments: &EngineArguments) -> Result<Vec<Device>, Failure> {
     let options = arguments.options()?;
     let gpu = || Gpu::open(&options.gpu).map(|gpu| Device::Gpu(Arc::new(gpu)));
     Ok(match options.choice {

@@ -4,12 +4,18 @@
 //! Its conventions:
 //! - Triangles are closed (edges and corners belong to them) and two-sided; both ends of the ray's `t` are included.
 //! - Of equal `t` the lowest triangle id wins.
-//! - A degenerate triangle (corners on one line) is never hit, and neither is one that contains the ray or that is
-//!   seen edge-on so exactly that f64 cannot tell.
-//! - No epsilon: what rounding leaves open (about 2^-50 of the distance to the ray's origin) is decided in favour of
-//!   a hit, so that no ray slips between two triangles that share an edge or a corner.
+//! - A degenerate triangle (corners on one line) is never hit, and neither is one that contains the ray.
+//! - No epsilon. Whether a ray hits a triangle, and whether it does between the ends of its `t`, is decided without any
+//!   rounding where all of the ray's numbers are f32, as those of every tracer's rays are ([`Oracle::contact`] also tells
+//!   whether they only touch). For other rays, what f64 leaves open (about 2^-50 of the distance to the ray's origin) is
+//!   decided in favour of a hit. Either way no ray slips between two triangles that share an edge or a corner.
+//! - Which of two hits is nearer is decided by their `t` in f64, whose error is about 2^-50 of the triangle's distance
+//!   over the cosine of incidence. Hits that lie closer together are as good as equal: no f32 tracer can tell them apart,
+//!   and [`judge`] takes either for right, for its tolerance is a million times wider.
 
 mod bvh;
+mod exact;
+mod expansion;
 pub mod judge;
 mod ray;
 mod triangle;
@@ -19,6 +25,8 @@ use rayon::prelude::*;
 
 use crate::mesh::Mesh;
 use bvh::{Bounds, Bvh, Item};
+pub use exact::Contact;
+use exact::ExactRay;
 use ray::nearer;
 pub use ray::{OracleHit, OracleRay};
 use triangle::{Shear, Triangle};
@@ -143,6 +151,16 @@ impl Oracle {
         self.hit(triangle, &unlimited, &Shear::new(ray))
     }
 
+    /// How the ray and the triangle lie to each other, exactly; `None` where a number of the ray is no f32.
+    pub fn contact(&self, triangle: u32, ray: &OracleRay) -> Option<Contact> {
+        let exact = ExactRay::of(ray)?;
+        Some(if ray.is_valid() {
+            exact.contact(self.corners(triangle), [ray.t_min, ray.t_max])
+        } else {
+            Contact::None
+        })
+    }
+
     /// Where the line of the ray meets the plane of the triangle, inside it or not; `None` if the triangle is
     /// degenerate or parallel to the ray.
     pub fn plane_hit(&self, triangle: u32, ray: &OracleRay) -> Option<PlaneHit> {
@@ -199,9 +217,11 @@ impl Oracle {
     }
 
     fn hit(&self, triangle: u32, ray: &OracleRay, line: &Shear) -> Option<OracleHit> {
-        let meeting = self.triangles[triangle as usize].meet(line)?;
-        ray.contains(meeting.t).then_some(OracleHit {
-            t: meeting.t,
+        let corners = &self.triangles[triangle as usize];
+        let meeting = corners.meet(line)?;
+        corners.is_within(&meeting, line, ray).then_some(OracleHit {
+            // Exactly it is between them.
+            t: meeting.t.clamp(ray.t_min, ray.t_max),
             triangle,
             u: meeting.u,
             v: meeting.v,

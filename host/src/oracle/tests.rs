@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{Oracle, OracleHit, OracleRay};
+use super::{Contact, Oracle, OracleHit, OracleRay};
 use crate::mesh::Mesh;
 
 fn oracle(triangles: &[[[f32; 3]; 3]]) -> Oracle {
@@ -175,4 +175,72 @@ fn distances_are_in_scene_units() {
             .meet(0, &ray([0.25, 0.25, 1.0], [0.0, 0.0, 1.0]))
             .is_some_and(|hit| hit.t == -1.0)
     );
+}
+
+#[test]
+fn what_f64_cannot_tell_is_decided_exactly() {
+    // The middle of an edge in general position, from so far away that the side of the edge is lost in rounding.
+    let a = DVec3::new(0.3, -0.7, 0.2).as_vec3();
+    let b = DVec3::new(-0.5, 0.1, 0.9).as_vec3();
+    let (left, right) = (Vec3::new(0.4, 0.8, 0.1), Vec3::new(-0.6, -0.6, 0.3));
+    let pair = oracle(&[[a, b, left].map(|p| p.to_array()), [b, a, right].map(|p| p.to_array())]);
+    let mut touched = 0;
+    for i in 0..2_000_u32 {
+        let weight = f64::from(1 + i % 62) / 64.0;
+        let target = a.as_dvec3().lerp(b.as_dvec3(), weight).as_vec3();
+        let away = Vec3::new(0.1 + 1e-3 * i as f32, 0.2, -3.0) * (1.0 + (i % 7) as f32 * 1e3);
+        let ray = OracleRay::new(target + away, -away, 0.0, f32::INFINITY);
+        let contacts = [0, 1].map(|triangle| pair.contact(triangle, &ray).unwrap());
+        touched += contacts.iter().filter(|contact| **contact == Contact::Touch).count();
+        assert!(
+            contacts.contains(&Contact::Inside) || contacts == [Contact::Touch; 2],
+            "{ray:?}: {contacts:?}"
+        );
+        let hits = pair.hits(&ray);
+        assert_eq!(
+            hits.len(),
+            contacts.iter().filter(|contact| **contact != Contact::None).count()
+        );
+    }
+    println!("{touched} touches");
+    // A direction that `origin + direction` would swallow, and an edge that it misses by 1e-38 of its length.
+    let small = oracle(&[RIGHT]);
+    for (x, wanted) in [(-1e-38, Contact::None), (0.0, Contact::Touch), (1e-38, Contact::Inside)] {
+        let ray = OracleRay::new(Vec3::new(0.0, 0.25, -1.0), Vec3::new(x, 0.0, 1.0), 0.0, f32::INFINITY);
+        assert_eq!(small.contact(0, &ray), Some(wanted), "{x}");
+        assert_eq!(small.closest(&ray).is_some(), wanted != Contact::None);
+    }
+}
+
+#[test]
+fn ends_of_t_are_decided_exactly() {
+    // t = 1/3, which no f32 is.
+    let oracle = oracle(&[RIGHT]);
+    let third = 1.0_f32 / 3.0;
+    let contact = |t_min: f32, t_max: f32, speed: f32| {
+        let ray = OracleRay::new(Vec3::new(0.25, 0.25, -1.0), Vec3::new(0.0, 0.0, speed), t_min, t_max);
+        let contact = oracle.contact(0, &ray).unwrap();
+        assert_eq!(oracle.any(&ray), contact != Contact::None);
+        contact
+    };
+    assert!(f64::from(third) > 1.0 / 3.0);
+    assert_eq!(contact(0.0, third, 3.0), Contact::Inside);
+    assert_eq!(contact(third, 1.0, 3.0), Contact::None);
+    assert_eq!(contact(third.next_down(), 1.0, 3.0), Contact::Inside);
+    assert_eq!(contact(0.0, third.next_down(), 3.0), Contact::None);
+    assert_eq!(
+        (contact(0.5, 1.0, 2.0), contact(0.0, 0.5, 2.0)),
+        (Contact::Touch, Contact::Touch)
+    );
+    assert_eq!(contact(f32::NEG_INFINITY, f32::INFINITY, 3.0), Contact::Inside);
+}
+
+#[test]
+fn triangles_of_corners_that_differ_much_in_size_have_an_area() {
+    // In f64 the small corner vanishes beside the large ones.
+    let far = [[1e20, 1e20, 0.0], [-1e20, -1e20, 0.0], [1.0, 0.0, 0.0]];
+    let oracle = oracle(&[far]);
+    let hit = closest(&oracle, &ray([0.5, f64::from(0.2_f32), 1.0], [0.0, 0.0, -1.0]));
+    assert_eq!(hit.map(|hit| hit.t), Some(1.0));
+    assert!(closest(&oracle, &ray([0.5, 0.75, 1.0], [0.0, 0.0, -1.0])).is_none());
 }

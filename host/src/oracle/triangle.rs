@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::exact::{self, ExactRay};
 use super::ray::OracleRay;
 
 /// A projected triangle whose area is below this many units in the last place of (its size times its distance from
@@ -16,14 +17,14 @@ const EDGE_ON_ULPS: f64 = 64.0 * f64::EPSILON;
 pub(super) struct Triangle {
     /// Corners, scene units. Exactly those of the mesh.
     pub corners: [DVec3; 3],
-    /// Cross product of the edges; its length is twice the area. Zero if and only if the triangle is degenerate: the
-    /// difference of two rounded products never has the wrong sign, and where the corners' f32 exponents lie within a
-    /// few binary orders of each other nothing is rounded at all.
+    /// Cross product of the edges; its length is twice the area. Zero if and only if the triangle is degenerate.
     pub normal: DVec3,
 }
 
 /// The line of a ray, sheared so that it becomes the third coordinate axis.
 pub(super) struct Shear {
+    /// The line as it is, where its numbers are f32.
+    exact: Option<ExactRay>,
     origin: DVec3,
     axes: [usize; 3],
     shear: DVec2,
@@ -35,6 +36,8 @@ pub(super) struct Meeting {
     pub t: f64,
     pub u: f64,
     pub v: f64,
+    /// On which sides the line passes the edges, where that is known exactly.
+    sides: Option<[f64; 3]>,
 }
 
 impl Shear {
@@ -44,6 +47,7 @@ impl Shear {
         let axes = [(z + 1) % 3, (z + 2) % 3, z];
         let speed = ray.direction[z];
         Shear {
+            exact: ExactRay::of(ray),
             origin: ray.origin,
             axes,
             shear: DVec2::new(ray.direction[axes[0]], ray.direction[axes[1]]) / speed,
@@ -63,9 +67,15 @@ impl Shear {
 impl Triangle {
     pub fn new(corners: [DVec3; 3]) -> Self {
         let [a, b, c] = corners;
+        let normal = (b - a).cross(c - a);
         Triangle {
             corners,
-            normal: (b - a).cross(c - a),
+            // Where corners differ much in size, f64 may lose the area of a triangle that has one.
+            normal: if normal == DVec3::ZERO {
+                exact::normal(corners)
+            } else {
+                normal
+            },
         }
     }
 
@@ -74,40 +84,67 @@ impl Triangle {
         self.normal == DVec3::ZERO
     }
 
-    /// Where the line meets the closed triangle, whatever its `t`; `None` if it passes by, if the triangle is
-    /// degenerate, or if it is seen edge-on as far as f64 can tell.
+    /// Where the line meets the closed triangle, whatever its `t`; `None` if it passes by or lies in the triangle's plane,
+    /// and if the triangle is degenerate.
     ///
-    /// Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (2013), in f64 and without their fall-back. All
-    /// triangles round a corner see the same projected corner, and `b * c - d * e` in IEEE arithmetic is never of the
-    /// wrong sign, at worst 0, which counts as inside. So no line slips between two triangles; one that exactly
-    /// touches an edge may be given to either side.
+    /// Whether it does is decided exactly where the ray's numbers are f32. Else by Woop, Benthin and Wald, "Watertight
+    /// Ray/Triangle Intersection" (2013), in f64 and without their fall-back: all triangles round a corner see the same
+    /// projected corner, and `b * c - d * e` in IEEE arithmetic is never of the wrong sign, at worst 0, which counts as
+    /// inside. So no line slips between two triangles; one that exactly touches an edge may be given to either side, and
+    /// one in the plane as far as f64 can tell is given to none.
     pub fn meet(&self, line: &Shear) -> Option<Meeting> {
         if self.is_degenerate() {
             return None;
         }
+        let sides = match &line.exact {
+            Some(exact) => Some(exact.sides(self.corners)?),
+            None => None,
+        };
         let [(a, a_along), (b, b_along), (c, c_along)] = self.corners.map(|corner| line.apply(corner));
         let weight_a = c.x * b.y - c.y * b.x;
         let weight_b = a.x * c.y - a.y * c.x;
         let weight_c = b.x * a.y - b.y * a.x;
-        let inside = (weight_a >= 0.0 && weight_b >= 0.0 && weight_c >= 0.0)
-            || (weight_a <= 0.0 && weight_b <= 0.0 && weight_c <= 0.0);
-        if !inside {
-            return None;
-        }
         let area = weight_a + weight_b + weight_c;
         let size = a.abs().max(b.abs()).max(c.abs()).max_element();
         let distance = size.max(a_along.abs()).max(b_along.abs()).max(c_along.abs());
-        if area.abs() <= EDGE_ON_ULPS * size * distance {
-            return None;
+        let is_edge_on = area.abs() <= EDGE_ON_ULPS * size * distance;
+        if sides.is_none() {
+            let inside = (weight_a >= 0.0 && weight_b >= 0.0 && weight_c >= 0.0)
+                || (weight_a <= 0.0 && weight_b <= 0.0 && weight_c <= 0.0);
+            if !inside || is_edge_on {
+                return None;
+            }
+        }
+        let [a_t, b_t, c_t] = [a_along, b_along, c_along].map(|along| along / line.direction[line.axes[2]]);
+        let (first, last) = (a_t.min(b_t).min(c_t), a_t.max(b_t).max(c_t));
+        if is_edge_on {
+            // f64 cannot tell where along the ray; the beginning is as good as any place.
+            return Some(Meeting {
+                t: first,
+                u: 0.0,
+                v: 0.0,
+                sides,
+            });
         }
         // From the plane, which is exact where that is parallel to two axes, but not outside of the corners' range,
         // which the hierarchy relies on.
         let t = self.normal.dot(self.corners[0] - line.origin) / self.normal.dot(line.direction);
-        let [a_t, b_t, c_t] = [a_along, b_along, c_along].map(|along| along / line.direction[line.axes[2]]);
         Some(Meeting {
-            t: t.clamp(a_t.min(b_t).min(c_t), a_t.max(b_t).max(c_t)),
-            u: weight_b / area,
-            v: weight_c / area,
+            t: t.clamp(first, last),
+            u: (weight_b / area).clamp(0.0, 1.0),
+            v: (weight_c / area).clamp(0.0, 1.0),
+            sides,
         })
+    }
+
+    /// Whether a meeting with a line lies between the ends of its ray's `t`: exactly, where the ray's numbers are f32.
+    pub fn is_within(&self, meeting: &Meeting, line: &Shear, ray: &OracleRay) -> bool {
+        match (&line.exact, meeting.sides) {
+            (Some(exact), Some(sides)) => {
+                exact.compare_t(self.corners, sides, ray.t_min).is_ge()
+                    && exact.compare_t(self.corners, sides, ray.t_max).is_le()
+            }
+            _ => ray.contains(meeting.t),
+        }
     }
 }

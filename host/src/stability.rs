@@ -1,0 +1,203 @@
+//! The stability lab: where methods fail, and that the default does not.
+//!
+//! A row is a failure mode: rays that some method has failed on, found in the literature, in other people's trackers and in
+//! the thesis of 2011. What is offered runs on it, and exhibits beside it; the row names those that must fail, so that a
+//! row whose rays are no longer hard is noticed.
+
+mod aim;
+mod box_cases;
+mod boxes;
+mod clock;
+mod departures;
+mod exhibits;
+mod html;
+mod meshes;
+mod method;
+mod modes;
+mod report;
+mod subject;
+mod table;
+mod tally;
+
+pub use html::page;
+pub use report::{MethodReport, Report, Role, RowReport};
+pub use table::table;
+pub use tally::{Counts, Failure};
+
+use crate::backend::{BackendError, Query};
+use crate::bench::Device;
+use crate::mesh_source::MeshError;
+use crate::progress::Progress;
+use crate::scene::SceneError;
+use boxes::BOX_MODES;
+use clock::quickest;
+use departures::DEPARTURE_MODES;
+use modes::{Mode, TRAVERSALS, TRIANGLE_TESTS};
+use oktant_shared::parts::{Parts, TraversalKind, TriangleKind};
+use oktant_shared::triangle_test::{BaldwinWeber, MollerTrumbore, Plucker, Watertight};
+use std::time::Duration;
+use subject::Subject;
+
+/// What is to be run.
+#[derive(Clone)]
+pub struct Plan {
+    /// Rays of each row, where there are not fewer.
+    pub rays: usize,
+    /// Rows by id; all where there are none.
+    pub rows: Vec<String>,
+    /// Where what is offered runs; exhibits, box tests and rays that leave a surface run on the CPU.
+    pub devices: Vec<Device>,
+}
+
+/// Why the lab could not do its work.
+#[derive(Debug, thiserror::Error)]
+pub enum LabError {
+    /// A mesh could not be had.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// Nothing could be built of it.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A device gave up.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
+}
+
+/// Triangle tests that brute force may make in a row.
+const BRUTE_BUDGET: usize = 1 << 30;
+
+/// Ids of all rows.
+pub fn row_ids() -> Vec<&'static str> {
+    let modes = TRIANGLE_TESTS.iter().chain(TRAVERSALS).map(|mode| mode.id);
+    modes
+        .chain(BOX_MODES.iter().map(|mode| mode.id))
+        .chain(DEPARTURE_MODES.iter().map(|mode| mode.id))
+        .collect()
+}
+
+/// Runs the rows.
+///
+/// # Errors
+/// [`LabError`].
+pub fn run(plan: &Plan, progress: Progress<'_>) -> Result<Report, LabError> {
+    let is_wanted = |id: &str| plan.rows.is_empty() || plan.rows.iter().any(|row| row == id);
+    let count = row_ids().into_iter().filter(|id| is_wanted(id)).count().max(1);
+    let mut rows = Vec::new();
+    for (family, modes) in [("triangle tests", TRIANGLE_TESTS), ("traversals", TRAVERSALS)] {
+        for mode in modes.iter().filter(|mode| is_wanted(mode.id)) {
+            rows.push(row(family, mode, plan)?);
+            progress("testing", rows.len() as f32 / count as f32);
+        }
+    }
+    for mode in BOX_MODES.iter().filter(|mode| is_wanted(mode.id)) {
+        rows.push(mode.run(plan.rays));
+        progress("testing", rows.len() as f32 / count as f32);
+    }
+    for mode in DEPARTURE_MODES.iter().filter(|mode| is_wanted(mode.id)) {
+        rows.push(mode.run(plan.rays)?);
+        progress("testing", rows.len() as f32 / count as f32);
+    }
+    Ok(Report {
+        version: env!("CARGO_PKG_VERSION"),
+        rays: plan.rays,
+        devices: plan.devices.iter().map(Device::name).collect(),
+        rows,
+    })
+}
+
+/// What is offered on all devices, then the exhibits.
+fn row(family: &'static str, mode: &Mode, plan: &Plan) -> Result<RowReport, LabError> {
+    let mesh = (mode.mesh)()?;
+    let rays = (mode.rays)(&mesh, plan.rays);
+    let brute = mesh.triangles.len() * rays.len();
+    let subject = Subject::new(mesh, rays, mode.wanted, TraversalKind::ALL)?;
+    let mut methods = Vec::new();
+    let mut base = None;
+    for device in &plan.devices {
+        let mut base_here = None;
+        for parts in offered() {
+            let tests = subject.mesh.triangles.len();
+            if parts.traversal == TraversalKind::Brute && (brute > BRUTE_BUDGET || tests > device.most_brute()) {
+                continue;
+            }
+            let Some(scene) = subject.scene(parts.traversal) else {
+                continue;
+            };
+            let mut tracer = device.with(scene)?;
+            let (hits, time) = quickest(|| tracer.cast(parts, Query::Closest, &subject.rays));
+            let hits = hits?;
+            let (mut counts, failures) = subject.judge(&hits);
+            if mode.counts_doubles && matches!(device, Device::Cpu) && parts.traversal == TraversalKind::Octants {
+                counts.doubled = Some(match parts.triangle {
+                    TriangleKind::Watertight => subject.doubled::<Watertight>(),
+                    TriangleKind::MollerTrumbore => subject.doubled::<MollerTrumbore>(),
+                    TriangleKind::BaldwinWeber => subject.doubled::<BaldwinWeber>(),
+                    TriangleKind::Plucker => subject.doubled::<Plucker>(),
+                });
+            }
+            if matches!(device, Device::Cpu) {
+                base.get_or_insert(time);
+            }
+            methods.push(MethodReport {
+                name: name(parts),
+                role: if parts == Parts::default() {
+                    Role::Default
+                } else {
+                    Role::Offered
+                },
+                device: device.name(),
+                counts,
+                time_ratio: ratio(time, *base_here.get_or_insert(time), subject.rays.len()),
+                failures,
+            });
+        }
+    }
+    for method in mode.exhibits {
+        let Some((hits, time)) = method.closest_hits(&subject) else {
+            continue;
+        };
+        let (mut counts, failures) = subject.judge(&hits);
+        if mode.counts_doubles {
+            counts.doubled = method.doubled(&subject);
+        }
+        methods.push(MethodReport {
+            name: method.name().into(),
+            role: if method.is_twin() { Role::Twin } else { Role::Exhibit },
+            device: Device::Cpu.name(),
+            counts,
+            time_ratio: base.and_then(|base| ratio(time, base, subject.rays.len())),
+            failures,
+        });
+    }
+    Ok(RowReport {
+        id: mode.id,
+        family,
+        title: mode.title,
+        input: mode.input,
+        remedy: mode.remedy,
+        must_fail: mode.fails.into(),
+        methods,
+    })
+}
+
+/// The default first.
+fn offered() -> impl Iterator<Item = Parts> {
+    let others = Parts::OFFERED
+        .iter()
+        .copied()
+        .filter(|parts| *parts != Parts::default());
+    std::iter::once(Parts::default()).chain(others)
+}
+
+fn name(parts: Parts) -> String {
+    if parts.traversal.takes_box_test() {
+        format!("{}, {}, {}", parts.traversal, parts.triangle, parts.box_test)
+    } else {
+        format!("{}, {}", parts.traversal, parts.triangle)
+    }
+}
+
+/// Of few rays no time tells anything.
+fn ratio(time: Duration, base: Duration, rays: usize) -> Option<f64> {
+    (rays >= 1000).then(|| time.as_secs_f64() / base.as_secs_f64())
+}
