@@ -1,6 +1,7 @@
 //! Reading binary files of arrays without trusting what their headers claim.
 
 use bytemuck::Pod;
+use std::fmt;
 use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::Path;
@@ -8,6 +9,16 @@ use thiserror::Error;
 
 // The files hold little-endian words, which are read as they are.
 const _: () = assert!(cfg!(target_endian = "little"));
+
+/// A file that cannot be used: its name and what is wrong with it, printed as one sentence.
+#[derive(Debug, Error)]
+#[error("{file}: {fault}")]
+pub struct UnusableFile<F: fmt::Display> {
+    /// The file.
+    pub file: String,
+    /// What is wrong with it and what to do.
+    pub fault: F,
+}
 
 /// Why a file's bytes cannot be had.
 #[derive(Debug, Error)]

@@ -7,22 +7,15 @@
 //!
 //! Memory is taken as a file proves to have what its header claims.
 
-use crate::array_file::{ArrayFile, FileFault};
+use crate::array_file::{ArrayFile, FileFault, UnusableFile};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use glam::Vec3;
 use std::path::Path;
 use thiserror::Error;
 
-/// A mesh file that cannot be used: its name and what is wrong with it, printed as one sentence.
-#[derive(Debug, Error)]
-#[error("{file}: {fault}")]
-pub struct BinaryMeshError {
-    /// The file.
-    pub file: String,
-    /// What is wrong with it and what to do.
-    pub fault: Fault,
-}
+/// A mesh file that cannot be used.
+pub type BinaryMeshError = UnusableFile<Fault>;
 
 /// What is wrong with a mesh file.
 #[derive(Debug, Error)]

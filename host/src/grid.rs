@@ -3,9 +3,10 @@
 mod cells;
 mod raster;
 
+use crate::build_error::BuildError;
 use crate::hittable::Hittable;
 use crate::mesh::Mesh;
-use crate::octree::{OctreeError, root};
+use crate::octree::root;
 use crate::progress::Progress;
 use cells::sorted_into;
 use glam::Vec3;
@@ -60,8 +61,8 @@ impl Grid {
     /// one for the same mesh, whatever the number of threads.
     ///
     /// # Errors
-    /// [`OctreeError`] where the mesh has nothing to build it from.
-    pub fn build(mesh: &Mesh, options: &GridOptions, progress: Progress<'_>) -> Result<Self, OctreeError> {
+    /// [`BuildError`] where the mesh has nothing to build it from.
+    pub fn build(mesh: &Mesh, options: &GridOptions, progress: Progress<'_>) -> Result<Self, BuildError> {
         let hittable = Hittable::of(mesh)?;
         let (low, high) = (hittable.low, hittable.high);
         let corners: Vec<[Vec3; 3]> = hittable

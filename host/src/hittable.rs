@@ -1,7 +1,8 @@
 //! The triangles of a mesh that rays can hit.
 
+use crate::build_error::BuildError;
 use crate::mesh::Mesh;
-use crate::octree::{OctreeError, distinct};
+use crate::octree::distinct;
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -25,8 +26,8 @@ impl Hittable {
     /// Those of a mesh.
     ///
     /// # Errors
-    /// [`OctreeError::NoArea`] where there are none.
-    pub(crate) fn of(mesh: &Mesh) -> Result<Self, OctreeError> {
+    /// [`BuildError::NoArea`] where there are none.
+    pub(crate) fn of(mesh: &Mesh) -> Result<Self, BuildError> {
         let corners: Vec<[Vec3; 3]> = mesh
             .triangles
             .par_iter()
@@ -41,7 +42,7 @@ impl Hittable {
                 (a.min(b).min(c), a.max(b).max(c))
             })
             .reduce_with(|a, b| (a.0.min(b.0), a.1.max(b.1)))
-            .ok_or(OctreeError::NoArea)?;
+            .ok_or(BuildError::NoArea)?;
         Ok(Hittable {
             corners,
             ids: distinct.ids,

@@ -7,6 +7,7 @@ pub mod backend;
 pub mod balls;
 pub mod bench;
 pub mod binary_mesh;
+pub mod build_error;
 pub mod compare;
 pub mod effort;
 pub mod generated;

@@ -11,6 +11,7 @@ pub(crate) use overlap::overlapped_children;
 pub(crate) use root::root;
 pub use root::{LARGEST_EXTENT, SMALLEST_EXTENT};
 
+use crate::build_error::BuildError;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use glam::Vec3;
@@ -31,26 +32,12 @@ pub struct Octree {
     pub duplicates: u32,
 }
 
-/// Why there is no octree for a mesh.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum OctreeError {
-    /// Nothing to see.
-    #[error("The mesh has no triangle with an area; give one that has.")]
-    NoArea,
-    /// Beyond what single precision can compute with.
-    #[error(
-        "The mesh is {0:e} units wide; scale it to between {SMALLEST_EXTENT:e} and {LARGEST_EXTENT:e}, where single \
-         precision can tell its triangles apart."
-    )]
-    Extent(f32),
-}
-
 impl Octree {
     /// Builds the octree of a mesh; the same one for the same mesh, whatever the number of threads.
     ///
     /// # Errors
-    /// [`OctreeError`] where the mesh has nothing to build it from.
-    pub fn build(mesh: &Mesh, options: &OctreeOptions, progress: Progress<'_>) -> Result<Self, OctreeError> {
+    /// [`BuildError`] where the mesh has nothing to build it from.
+    pub fn build(mesh: &Mesh, options: &OctreeOptions, progress: Progress<'_>) -> Result<Self, BuildError> {
         build::build(mesh, options, progress)
     }
 

@@ -4,9 +4,9 @@ mod validate;
 
 pub use validate::InvalidModel;
 
+use crate::build_error::BuildError;
 use crate::mesh::Mesh;
 use crate::model::{Focus, Model, needs_coordinates, white_light};
-use crate::octree::OctreeError;
 use crate::progress::Progress;
 use crate::structure::{InvalidStructure, Structure, StructureOptions};
 use bytemuck::Zeroable;
@@ -82,7 +82,7 @@ pub struct Scene {
 pub enum SceneError {
     /// There is nothing to build from.
     #[error(transparent)]
-    Octree(#[from] OctreeError),
+    Build(#[from] BuildError),
     /// The model breaks a rule.
     #[error(transparent)]
     Model(#[from] InvalidModel),
@@ -95,7 +95,7 @@ impl Scene {
     /// A scene of a mesh alone, see [`Model::of_mesh`].
     ///
     /// # Errors
-    /// [`SceneError::Octree`] where the mesh has no triangle with an area.
+    /// [`SceneError::Build`] where the mesh has no triangle with an area.
     pub fn new(mesh: &Mesh, options: &StructureOptions, progress: Progress<'_>) -> Result<Self, SceneError> {
         Self::of_model(Model::of_mesh(mesh.clone()), options, progress)
     }
@@ -103,12 +103,12 @@ impl Scene {
     /// Builds the structure over a model's triangles and lays out its arrays.
     ///
     /// # Errors
-    /// [`SceneError::Octree`] where there is neither a triangle with an area nor a plane; [`SceneError::Model`] where the
+    /// [`SceneError::Build`] where there is neither a triangle with an area nor a plane; [`SceneError::Model`] where the
     /// model breaks a rule that a kernel relies on, such as an index out of range.
     pub fn of_model(model: Model, options: &StructureOptions, progress: Progress<'_>) -> Result<Self, SceneError> {
         validate::validate(&model)?;
         let structure = match Structure::build(&model.mesh, options, progress) {
-            Err(OctreeError::NoArea) if !model.planes.is_empty() => Structure::empty(options.parts.traversal),
+            Err(BuildError::NoArea) if !model.planes.is_empty() => Structure::empty(options.parts.traversal),
             built => built?,
         };
         structure.validate(model.mesh.triangles.len())?;

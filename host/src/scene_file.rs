@@ -25,7 +25,7 @@ mod texels;
 mod texture;
 mod vector;
 
-use crate::octree::OctreeError;
+use crate::build_error::BuildError;
 use crate::progress::Progress;
 use crate::scene::SceneError;
 use crate::source::Setting;
@@ -100,7 +100,7 @@ impl SceneFileError {
     pub fn of_build(path: &Path, error: SceneError) -> Self {
         let path = path.to_path_buf();
         match error {
-            SceneError::Octree(OctreeError::NoArea) => SceneFileError::NoArea(path),
+            SceneError::Build(BuildError::NoArea) => SceneFileError::NoArea(path),
             error => SceneFileError::Build { path, error },
         }
     }

@@ -33,8 +33,10 @@ use boxes::BOX_MODES;
 use clock::quickest;
 use departures::DEPARTURE_MODES;
 use modes::{Mode, TRAVERSALS, TRIANGLE_TESTS};
-use oktant_shared::parts::{Parts, TraversalKind, TriangleKind};
-use oktant_shared::triangle_test::{BaldwinWeber, MollerTrumbore, Plucker, Watertight};
+use oktant_shared::general::AnyTriangle;
+use oktant_shared::parts::{Parts, TraversalKind};
+use oktant_shared::scene::Scene as View;
+use oktant_shared::triangle_test::TriangleTest;
 use std::time::Duration;
 use subject::Subject;
 
@@ -128,12 +130,12 @@ fn row(family: &'static str, mode: &Mode, plan: &Plan) -> Result<RowReport, LabE
             let hits = hits?;
             let (mut counts, failures) = subject.judge(&hits);
             if mode.counts_doubles && matches!(device, Device::Cpu) && parts.traversal == TraversalKind::Octants {
-                counts.doubled = Some(match parts.triangle {
-                    TriangleKind::Watertight => subject.doubled::<Watertight>(),
-                    TriangleKind::MollerTrumbore => subject.doubled::<MollerTrumbore>(),
-                    TriangleKind::BaldwinWeber => subject.doubled::<BaldwinWeber>(),
-                    TriangleKind::Plucker => subject.doubled::<Plucker>(),
-                });
+                // Any triangle test, chosen while it runs, so that a new one needs nothing here.
+                let view = View {
+                    parts: parts.number(),
+                    ..scene.view()
+                };
+                counts.doubled = Some(subject.doubled_by(|ray| AnyTriangle::prepare_in(&view, ray)));
             }
             if matches!(device, Device::Cpu) {
                 base.get_or_insert(time);

@@ -8,12 +8,13 @@ mod validate;
 pub use figures::Figures;
 pub use validate::InvalidStructure;
 
+use crate::build_error::BuildError;
 use crate::grid::{Grid, GridOptions};
 use crate::hittable::Hittable;
 use crate::mesh::Mesh;
-use crate::octree::{Octree, OctreeError, OctreeOptions, duplicates, root};
+use crate::octree::{Octree, OctreeOptions, duplicates, root};
 use crate::progress::Progress;
-use crate::tree::{BinaryTree, BuildPreset, CollapseOptions, TreeError, WideNode};
+use crate::tree::{BinaryTree, BuildPreset, CollapseOptions, WideNode};
 use glam::{UVec3, UVec4, Vec3, uvec4};
 use oktant_shared::grid::Raster;
 use oktant_shared::octree::{Node, Root};
@@ -58,8 +59,8 @@ impl Structure {
     /// Builds what the options ask for; the same one for the same mesh, whatever the number of threads.
     ///
     /// # Errors
-    /// [`OctreeError`] where the mesh has nothing to build it from.
-    pub fn build(mesh: &Mesh, options: &StructureOptions, progress: Progress<'_>) -> Result<Self, OctreeError> {
+    /// [`BuildError`] where the mesh has nothing to build it from.
+    pub fn build(mesh: &Mesh, options: &StructureOptions, progress: Progress<'_>) -> Result<Self, BuildError> {
         match options.parts.traversal {
             TraversalKind::Octree => {
                 let octree = Octree::build(mesh, &options.octree, progress)?;
@@ -80,7 +81,7 @@ impl Structure {
                 let blank = [UVec4::ZERO; oktant_shared::octants::NODE_VECTORS as usize];
                 let margin = octants::margin(&root(low, high, 0)?);
                 let encode = |node: &WideNode| octants::words(node, margin);
-                let wide = tree.to_wide(&CollapseOptions::default(), blank, encode);
+                let wide = tree.to_wide(&CollapseOptions::of(options.preset), blank, encode);
                 let nodes = bytemuck::allocation::cast_vec(wide.nodes);
                 Self::of_tree(
                     options.parts.traversal,
@@ -145,7 +146,7 @@ impl Structure {
         ids: Vec<u32>,
         degenerate: u32,
         mesh: &Mesh,
-    ) -> Result<Self, OctreeError> {
+    ) -> Result<Self, BuildError> {
         let buried = duplicates(mesh, &ids);
         // As much room as the octree's cube has: for rays from so far away that f32 does not tell where they pass.
         let room = Vec3::splat((high - low).max_element() / 64.0);
@@ -196,15 +197,6 @@ impl Structure {
             buried: Vec::new(),
             degenerate: 0,
             duplicates: 0,
-        }
-    }
-}
-
-impl From<TreeError> for OctreeError {
-    fn from(error: TreeError) -> Self {
-        match error {
-            TreeError::NoArea => OctreeError::NoArea,
-            TreeError::Extent(extent) => OctreeError::Extent(extent),
         }
     }
 }

@@ -27,8 +27,6 @@ pub use pages::Pages;
 pub use slots::Placing;
 pub use wide::{MAX_LEAF, WIDTH, WideChild, WideNode, WideTree};
 
-use crate::octree::{LARGEST_EXTENT, SMALLEST_EXTENT};
-
 /// What a build spends its time on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum BuildPreset {
@@ -55,21 +53,24 @@ impl BuildPreset {
     }
 }
 
-/// Why there is no tree for a mesh.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum TreeError {
-    /// Nothing to see.
-    #[error("The mesh has no triangle with an area; give one that has.")]
-    NoArea,
-    /// Beyond what single precision can compute with.
-    #[error(
-        "The mesh is {0:e} units wide; scale it to between {SMALLEST_EXTENT:e} and {LARGEST_EXTENT:e}, where single \
-         precision can tell its triangles apart."
-    )]
-    Extent(f32),
-}
-
 /// A broken rule of a tree, in words; a bug of whoever made it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("The tree is not valid: {0}. This is a bug; please report it with the mesh.")]
 pub struct InvalidTree(pub String);
+
+/// Checks that each of so many triangles has one slot or was left out.
+fn each_once(order: &[u32], left_out: u32, triangles: usize) -> Result<(), InvalidTree> {
+    if order.len() + left_out as usize != triangles {
+        return Err(InvalidTree(format!("it has {} slots", order.len())));
+    }
+    let mut seen = vec![false; triangles];
+    for &id in order {
+        match seen.get_mut(id as usize) {
+            Some(seen) if !*seen => *seen = true,
+            _ => {
+                return Err(InvalidTree(format!("triangle {id} is in it twice or not in the mesh")));
+            }
+        }
+    }
+    Ok(())
+}

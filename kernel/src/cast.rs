@@ -26,7 +26,7 @@ macro_rules! cast {
             #[spirv(storage_buffer, descriptor_set = 2, binding = 0)] hits: &mut [UVec4],
             #[spirv(storage_buffer, descriptor_set = 2, binding = 1)] rays: &[Vec4],
         ) {
-            let index = (id.y * ROW + id.x);
+            let index = id.y * ROW + id.x;
             if (index < hits.len() as u32) & (2 * index + 1 < rays.len() as u32) {
                 let scene = Scene {
                     root: frame.root,

@@ -1,6 +1,7 @@
 //! The picture, and what each pixel sees.
 
 use glam::{UVec3, UVec4, Vec2, Vec4, uvec2};
+use oktant_shared::buffer::{load, store};
 use oktant_shared::frame::Frame;
 use oktant_shared::general::General;
 use oktant_shared::hit::Hit;
@@ -42,7 +43,7 @@ macro_rules! pixels {
         ) {
             let pixel = uvec2(id.x, id.y + frame.first_row);
             let size = frame.size();
-            if pixel.x < size.x && pixel.y < size.y {
+            if (pixel.x < size.x) & (pixel.y < size.y) {
                 let world = World {
                     scene: Scene {
                         root: frame.root,
@@ -63,7 +64,7 @@ macro_rules! pixels {
                         texels,
                     },
                 };
-                let index = (pixel.y * size.x + pixel.x) as usize;
+                let index = pixel.y * size.x + pixel.x;
                 $store(frame, index, $of(frame, &world, pixel), $($output),+);
             }
         }
@@ -71,23 +72,22 @@ macro_rules! pixels {
 }
 
 /// Adds to the pixel; the first pass overwrites. `work` may hold fewer pixels, or none.
-fn add(frame: &Frame, index: usize, pixel: Pixel, picture: &mut [Vec4], work: &mut [Vec4]) {
-    if frame.first_sample == 0 {
-        picture[index] = pixel.sum;
-    } else {
-        picture[index] += pixel.sum;
-    }
-    if index < work.len() {
-        if frame.first_sample == 0 {
-            work[index] = pixel.work;
-        } else {
-            work[index] += pixel.work;
-        }
+fn add(frame: &Frame, index: u32, pixel: Pixel, picture: &mut [Vec4], work: &mut [Vec4]) {
+    add_to(picture, index, frame.first_sample == 0, pixel.sum);
+    add_to(work, index, frame.first_sample == 0, pixel.work);
+}
+
+fn add_to(sums: &mut [Vec4], index: u32, is_first: bool, term: Vec4) {
+    if index < sums.len() as u32 {
+        let before = if is_first { Vec4::ZERO } else { load(sums, index) };
+        store(sums, index, before + term);
     }
 }
 
-fn put(_: &Frame, index: usize, hit: Hit, hits: &mut [Hit]) {
-    hits[index] = hit;
+fn put(_: &Frame, index: u32, hit: Hit, hits: &mut [UVec4]) {
+    if index < hits.len() as u32 {
+        store(hits, index, hit.row());
+    }
 }
 
 pixels!(
@@ -113,7 +113,7 @@ pixels!(
     "hits",
     hits,
     hit_pixel::<Standard>,
-    { 0 hits: Hit } put
+    { 0 hits: UVec4 } put
 );
 
 pixels!(

@@ -4,7 +4,7 @@
 //! triangles that share an edge, or must round only once, is written with the functions below; everything else may
 //! round as it likes.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 #[cfg(target_arch = "spirv")]
 use num_traits::Float;
 
@@ -27,7 +27,7 @@ pub fn max(a: f32, b: f32) -> f32 {
 pub fn lesser(a: f32, b: f32) -> f32 {
     #[cfg(target_arch = "spirv")]
     {
-        extended::<37>(a, b)
+        extended::<f32, 37>(a, b)
     }
     #[cfg(not(target_arch = "spirv"))]
     {
@@ -40,7 +40,7 @@ pub fn lesser(a: f32, b: f32) -> f32 {
 pub fn greater(a: f32, b: f32) -> f32 {
     #[cfg(target_arch = "spirv")]
     {
-        extended::<40>(a, b)
+        extended::<f32, 40>(a, b)
     }
     #[cfg(not(target_arch = "spirv"))]
     {
@@ -48,12 +48,45 @@ pub fn greater(a: f32, b: f32) -> f32 {
     }
 }
 
-/// An instruction of two numbers from GLSL's extended set: 37 is `FMin`, 40 `FMax`. The library's functions of these names
-/// take care of NaN, at several times the cost.
+/// The smaller of two integers.
+#[inline(always)]
+pub fn lesser_integer(a: i32, b: i32) -> i32 {
+    #[cfg(target_arch = "spirv")]
+    {
+        extended::<i32, 39>(a, b)
+    }
+    #[cfg(not(target_arch = "spirv"))]
+    {
+        a.min(b)
+    }
+}
+
+/// The larger of two integers.
+#[inline(always)]
+pub fn greater_integer(a: i32, b: i32) -> i32 {
+    #[cfg(target_arch = "spirv")]
+    {
+        extended::<i32, 42>(a, b)
+    }
+    #[cfg(not(target_arch = "spirv"))]
+    {
+        a.max(b)
+    }
+}
+
+/// Two numbers in a word, with 8 significant bits each: one whose upper half is the word's lower half, and the word itself,
+/// the lower half of which makes it a little larger than its upper half says.
+#[inline(always)]
+pub fn halves(word: u32) -> Vec2 {
+    Vec2::new(f32::from_bits(word << 16), f32::from_bits(word))
+}
+
+/// An instruction of two numbers from GLSL's extended set: 37 is `FMin`, 40 `FMax`, 39 `SMin`, 42 `SMax`. The library's
+/// functions of the names of the former take care of NaN, at several times the cost.
 #[cfg(target_arch = "spirv")]
 #[inline(always)]
-fn extended<const INSTRUCTION: u32>(a: f32, b: f32) -> f32 {
-    let mut result = 0.0;
+fn extended<T: Default, const INSTRUCTION: u32>(a: T, b: T) -> T {
+    let mut result = T::default();
     // SAFETY: the instruction has no effect but its result.
     unsafe {
         core::arch::asm!(
@@ -214,6 +247,12 @@ mod tests {
             0.0,
             "the plain expression rounds twice"
         );
+    }
+
+    #[test]
+    fn halves_are_the_numbers_they_stand_for() {
+        assert_eq!(halves(0x3f80 | 0x437f << 16), Vec2::new(1.0, 255.0 + 0.248_046_88));
+        assert_eq!(halves(0), Vec2::ZERO);
     }
 
     #[test]

@@ -78,7 +78,7 @@ impl<T: Copy, const N: usize> Stack<T, N> {
     #[inline(always)]
     pub fn new(filler: T) -> Self {
         Stack {
-            entries: [filler; N],
+            entries: blank(filler),
             waiting: 0,
         }
     }
@@ -95,5 +95,20 @@ impl<T: Copy, const N: usize> Stack<T, N> {
     pub fn pop(&mut self) -> T {
         self.waiting -= 1;
         get(&self.entries, self.waiting)
+    }
+}
+
+/// Entries that must be written before they are read; `filler` is any value. A GPU would write the fillers to memory, for every ray.
+#[inline(always)]
+pub fn blank<T: Copy, const N: usize>(filler: T) -> [T; N] {
+    #[cfg(target_arch = "spirv")]
+    {
+        let _ = filler;
+        // SAFETY: numbers without a value, which nobody reads.
+        unsafe { core::mem::MaybeUninit::uninit().assume_init() }
+    }
+    #[cfg(not(target_arch = "spirv"))]
+    {
+        [filler; N]
     }
 }

@@ -38,7 +38,7 @@ pub struct Walk<B> {
     t_min: f32,
     /// The node or leaf to visit.
     link: u32,
-    waiting: Stack<u32, { MAX_LEVEL as usize + 1 }>,
+    stack: Stack<u32, { MAX_LEVEL as usize + 1 }>,
 }
 
 impl<B: BoxTest> walk::Walk for Walk<B> {
@@ -50,7 +50,7 @@ impl<B: BoxTest> walk::Walk for Walk<B> {
             test: B::prepare_in(scene, &entered.ray),
             t_min: entered.ray.t_min,
             link: if entered.inside { 0 } else { DONE },
-            waiting: Stack::new(0),
+            stack: Stack::new(0),
         }
     }
 
@@ -61,8 +61,13 @@ impl<B: BoxTest> walk::Walk for Walk<B> {
 
     #[inline(always)]
     fn leaf(&mut self, scene: &Scene<'_>, limit: f32) -> Range {
-        while self.link & LEAF == 0 {
-            self.descend(scene, limit);
+        if self.link & LEAF == 0 {
+            loop {
+                self.descend(scene, limit);
+                if self.link & LEAF != 0 {
+                    break;
+                }
+            }
         }
         let next = (self.link & !LEAF) >> COUNT_BITS;
         let count = self.link & ((1 << COUNT_BITS) - 1);
@@ -95,7 +100,7 @@ impl<B: BoxTest> Walk<B> {
         let is_second_nearer = meets1 & (!meets0 | (second.enter < first.enter));
         self.link = if is_second_nearer { link1 } else { link0 };
         if meets0 & meets1 {
-            self.waiting.push(if is_second_nearer { link0 } else { link1 });
+            self.stack.push(if is_second_nearer { link0 } else { link1 });
         }
         if !(meets0 | meets1) {
             self.pop();
@@ -104,10 +109,10 @@ impl<B: BoxTest> Walk<B> {
 
     #[inline(always)]
     fn pop(&mut self) {
-        if self.waiting.waiting == 0 {
+        if self.stack.waiting == 0 {
             self.link = DONE;
         } else {
-            self.link = self.waiting.pop();
+            self.link = self.stack.pop();
         }
     }
 }

@@ -34,6 +34,9 @@ impl AnyWalk {
 impl Walk for AnyWalk {
     type Leaf = AnyLeaf;
 
+    // It is the largest.
+    const SHADOWS_APART: bool = false;
+
     fn new(scene: &Scene<'_>, entered: &Entered) -> Self {
         AnyWalk {
             kind: scene.parts & 7,

@@ -208,8 +208,8 @@ impl walk::Walk for Walk {
     fn leave(&mut self, limit: f32) {
         let exit = min_component(self.exits);
         let x = self.exits.x <= exit;
-        let y = !x && self.exits.y <= exit;
-        let z = !x && !y;
+        let y = !x & (self.exits.y <= exit);
+        let z = !x & !y;
         let (next, last) = if x {
             (self.next.x, self.last.x)
         } else if y {
@@ -217,7 +217,7 @@ impl walk::Walk for Walk {
         } else {
             (self.next.z, self.last.z)
         };
-        self.inside = next < last && exit < limit;
+        self.inside = (next < last) & (exit < limit);
         self.next += Vec3::new(
             if x { 1.0 } else { 0.0 },
             if y { 1.0 } else { 0.0 },

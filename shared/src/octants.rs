@@ -19,7 +19,7 @@ use core::marker::PhantomData;
 use glam::{UVec2, uvec2};
 
 /// Words of a node, four to a vector.
-pub const NODE_VECTORS: u32 = 5;
+pub const NODE_VECTORS: u32 = 8;
 
 /// Deepest level of a node; the root's is 0. The traversal's stack has one entry for each level.
 pub const MAX_LEVEL: u32 = 31;
@@ -35,17 +35,19 @@ pub const MARGIN: f32 = 1.0 / (1 << 21) as f32;
 
 /// A tree of eight children a node, each triangle in one leaf, with the triangle test `T`.
 ///
-/// A node's children lie in the slots of its octants, their boxes tight around what is in them, in 8 bits a face on the
+/// A node's children lie in the slots of its octants, their boxes tight around what is in them, on the
 /// node's own raster (H. Ylitie, T. Karras, S. Laine, "Efficient incoherent ray traversal on GPUs through compressed wide
 /// BVHs", HPG 2017). A ray visits slots in the order of `slot XOR octant`, so that front comes before back without sorting.
 ///
-/// Deviations: no postponed triangles, leaves of a node are tested before its inner children; boxes are
+/// Deviations: faces are halves of f32 instead of integers of 8 bits, which take a GPU and a processor longer to make f32
+/// of; no postponed triangles, leaves of a node are tested before its inner children; boxes are
 /// wider by [`MARGIN`], so that rounding misses none; own words.
 ///
-/// A node is 20 words: the raster's corner (three f32); its steps as exponents, 8 bits each of x, y, z, and in the highest
+/// A node is 32 words: the raster's corner (three f32); its sizes as exponents, 8 bits each of x, y, z, and in the highest
 /// 8 bits the slots that hold inner nodes; the first inner child's index; the first leaf's slot; for each octant a byte, of
 /// a leaf its count times 32 plus its first triangle's place among the node's; then for x, y and z each the low faces of
-/// all octants and the high ones, a byte each.
+/// all octants and the high ones, from the corner in parts of the size: 0 to 1, two to a word
+/// (see [`crate::arithmetic::halves`]).
 ///
 /// With `LANES`, a processor that has AVX2 tests a node's boxes, and four triangles, in the lanes of a register; the answers
 /// are the same bit for bit.
@@ -56,7 +58,7 @@ impl<T: TriangleTest, const LANES: bool> Traversal for Octants<T, LANES> {
     fn closest_hit(scene: &Scene<'_>, ray: &Ray) -> Hit {
         #[cfg(target_arch = "x86_64")]
         if LANES && lanes::are_there() {
-            // SAFETY: they are there; scenes are validated before rays are traced through them.
+            // SAFETY: they are there.
             return unsafe { lanes::closest_hit::<T>(scene, ray) };
         }
         Along::<Walk, KayKajiya, T>::closest_hit(scene, ray)
@@ -129,13 +131,18 @@ impl walk::Walk for Walk {
         self.group = toward(hits & inner, self.slabs.octant) | inner << 8;
         let mut bits = 0;
         let mut leaves = hits & !inner;
-        while leaves != 0 {
-            let slot = leaves.trailing_zeros();
-            leaves &= leaves - 1;
-            let (low, high) = (links.z, links.w);
-            let word = if slot < 4 { low } else { high };
-            let byte = word >> (8 * (slot & 3));
-            bits |= ((1 << (byte >> 5 & 7)) - 1) << (byte & 31);
+        if leaves != 0 {
+            loop {
+                let slot = leaves.trailing_zeros();
+                leaves &= leaves - 1;
+                let (low, high) = (links.z, links.w);
+                let word = if slot < 4 { low } else { high };
+                let byte = word >> (8 * (slot & 3));
+                bits |= ((1 << (byte >> 5 & 7)) - 1) << (byte & 31);
+                if leaves == 0 {
+                    break;
+                }
+            }
         }
         Some32 { first: links.y, bits }
     }

@@ -67,7 +67,7 @@ kinds! {
     /// [`crate::octants::Octants`].
     #[default]
     Octants {
-        "octants", "Ylitie, Karras, Laine 2017", "80 bytes; 8 boxes, 48 multiply-adds", true
+        "octants", "Ylitie, Karras, Laine 2017", "128 bytes; 8 boxes, 48 multiply-adds", true
     }
     /// [`crate::revelles::Revelles`].
     Octree {

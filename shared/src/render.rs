@@ -48,7 +48,7 @@ pub fn render_pixel<V: Traversal, const FULL: bool>(frame: &Frame, world: &World
     };
     let eyes = EyeView::eyes(frame);
     let mut number = 0;
-    while number < frame.sample_count * eyes {
+    loop {
         let sample = sample(frame, frame.first_sample + number / eyes);
         let view = EyeView::new(frame, pixel, number % eyes);
         let ray = ray_of(frame, &view, sample.place);
@@ -62,8 +62,10 @@ pub fn render_pixel<V: Traversal, const FULL: bool>(frame: &Frame, world: &World
         let cut = traced.cut * sample.weight;
         result.work += Vec4::new(traced.rays as f32, traced.shadow_rays as f32, cut, 0.0);
         number += 1;
+        if number >= frame.sample_count * eyes {
+            return result;
+        }
     }
-    result
 }
 
 /// The colour of the first surface that a ray meets.

@@ -1,7 +1,7 @@
 //! The parametric octree traversal.
 
 use crate::arithmetic::{max, max_component, min_component};
-use crate::buffer::{get, put};
+use crate::buffer::{blank, get, put};
 use crate::entered::Entered;
 use crate::octree::{MAX_DEPTH, Node};
 use crate::scene::Scene;
@@ -86,7 +86,7 @@ impl walk::Walk for Walk {
             depth: root.depth,
             node: 0,
             enter: 0.0,
-            stack: [0; MAX_DEPTH as usize],
+            stack: blank(0),
             inside: entered.inside,
         };
         walk.enter = max(max_component(walk.crossings(UVec3::ZERO)), entered.ray.t_min);
@@ -102,21 +102,26 @@ impl walk::Walk for Walk {
     #[inline(always)]
     fn leaf(&mut self, scene: &Scene<'_>, _: f32) -> List {
         let mut node = Node::at(scene.nodes, self.node);
-        while node.is_inner() {
-            self.size -= 1;
-            put(&mut self.stack, self.size, node.first);
-            let half = 1 << self.size;
-            let middle = self.crossings(self.place + UVec3::splat(half));
-            let x = middle.x <= self.enter;
-            let y = middle.y <= self.enter;
-            let z = middle.z <= self.enter;
-            self.place += UVec3::new(
-                if x { half } else { 0 },
-                if y { half } else { 0 },
-                if z { half } else { 0 },
-            );
-            self.node = node.first + (bits(x, y, z) ^ self.mirrored);
-            node = Node::at(scene.nodes, self.node);
+        if node.is_inner() {
+            loop {
+                self.size -= 1;
+                put(&mut self.stack, self.size, node.first);
+                let half = 1 << self.size;
+                let middle = self.crossings(self.place + UVec3::splat(half));
+                let x = middle.x <= self.enter;
+                let y = middle.y <= self.enter;
+                let z = middle.z <= self.enter;
+                self.place += UVec3::new(
+                    if x { half } else { 0 },
+                    if y { half } else { 0 },
+                    if z { half } else { 0 },
+                );
+                self.node = node.first + (bits(x, y, z) ^ self.mirrored);
+                node = Node::at(scene.nodes, self.node);
+                if !node.is_inner() {
+                    break;
+                }
+            }
         }
         List {
             next: node.first,
@@ -143,7 +148,7 @@ impl walk::Walk for Walk {
         };
         // The highest bit that changed is the size of the largest cell that was left.
         let size = 31 - changed.leading_zeros();
-        self.inside = size < self.depth && exit < limit;
+        self.inside = (size < self.depth) & (exit < limit);
         if self.inside {
             self.size = size;
             self.enter = exit;

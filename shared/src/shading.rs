@@ -47,10 +47,13 @@ pub fn shade<V: Traversal, const FULL: bool>(
     traced: &mut Traced,
 ) -> Vec3 {
     let mut color = surface.base * surface.material.ambient * frame.ambient;
-    let further = if FULL { frame.light_count } else { 0 };
+    if !FULL {
+        return color + lit::<V, FULL>(frame, world, surface, viewer, &frame.light, traced);
+    }
     let mut i = 0;
-    // One call for all lights: each would be a copy of the whole traversal in the kernel.
-    while i <= further {
+    // One call for all lights: each would be a copy of the whole traversal in the kernel. Asked at its beginning whether to
+    // go on, the loop is up to three times as fast on a GPU, unlike those of the traversals.
+    while i <= frame.light_count {
         let light = if i == 0 {
             frame.light
         } else {
@@ -70,43 +73,60 @@ fn lit<V: Traversal, const FULL: bool>(
     light: &Light,
     traced: &mut Traced,
 ) -> Vec3 {
+    if !FULL {
+        return lit_by::<V, FULL>(frame, world, surface, viewer, light, 0, traced);
+    }
+    let count = light.sample_count();
+    let mut color = Vec3::ZERO;
+    let mut sample = 0;
+    while sample < count {
+        color += lit_by::<V, FULL>(frame, world, surface, viewer, light, sample, traced);
+        sample += 1;
+    }
+    color
+}
+
+/// What one sample of a light contributes.
+fn lit_by<V: Traversal, const FULL: bool>(
+    frame: &Frame,
+    world: &World<'_>,
+    surface: &Surface,
+    viewer: &Viewer,
+    light: &Light,
+    sample: u32,
+    traced: &mut Traced,
+) -> Vec3 {
     let material = &surface.material;
     let origin = surface.shadow_point + surface.side * surface.clearance;
     let is_lifted = surface.shadow_point != surface.point;
     let count = if FULL { light.sample_count() } else { 1 };
-    let mut color = Vec3::ZERO;
-    let mut sample = 0;
-    while sample < count {
-        let incident = light.incident(sample, origin, frame.root.size());
-        sample += 1;
-        let direction = incident.direction.normalize();
-        let cosine = surface.normal.dot(direction);
-        // A light below the triangle still grazes the rounder surface that a lifted point is on.
-        let above = surface.side.dot(direction) > 0.0 || is_lifted;
-        if !(cosine > 0.0 && above && incident.color != Vec3::ZERO) {
-            continue;
-        }
-        let highlight = if material.exponent > 0.0 {
-            let cosine = if material.flags & PHONG_HIGHLIGHTS != 0 {
-                reflected(-viewer.direction, surface.normal).dot(direction)
-            } else {
-                surface.normal.dot((direction + viewer.direction).normalize())
-            };
-            // Above 1 by a rounding, a power of it would be far above.
-            min(max(cosine, 0.0), 1.0).powf(material.exponent)
-        } else {
-            0.0
-        };
-        let reflected = surface.base * (material.diffuse * cosine) + material.specular * highlight;
-        let most = max_component(viewer.weight * reflected);
-        if most < NEGLIGIBLE {
-            traced.cut += most / count as f32;
-            continue;
-        }
-        traced.shadow_rays += 1;
-        let visibility = visibility::<V, FULL>(frame, world, origin, viewer.media, &incident);
-        color += reflected * incident.color * visibility.part;
-        traced.cut += most * max_component(visibility.cut) / count as f32;
+    let incident = light.incident(sample, origin, frame.root.size());
+    let direction = incident.direction.normalize();
+    let cosine = surface.normal.dot(direction);
+    // A light below the triangle still grazes the rounder surface that a lifted point is on.
+    let above = (surface.side.dot(direction) > 0.0) | is_lifted;
+    if !((cosine > 0.0) & above & (incident.color != Vec3::ZERO)) {
+        return Vec3::ZERO;
     }
-    color
+    let highlight = if material.exponent > 0.0 {
+        let cosine = if material.flags & PHONG_HIGHLIGHTS != 0 {
+            reflected(-viewer.direction, surface.normal).dot(direction)
+        } else {
+            surface.normal.dot((direction + viewer.direction).normalize())
+        };
+        // Above 1 by a rounding, a power of it would be far above.
+        min(max(cosine, 0.0), 1.0).powf(material.exponent)
+    } else {
+        0.0
+    };
+    let reflected = surface.base * (material.diffuse * cosine) + material.specular * highlight;
+    let most = max_component(viewer.weight * reflected);
+    if most < NEGLIGIBLE {
+        traced.cut += most / count as f32;
+        return Vec3::ZERO;
+    }
+    traced.shadow_rays += 1;
+    let visibility = visibility::<V, FULL>(frame, world, origin, viewer.media, &incident);
+    traced.cut += most * max_component(visibility.cut) / count as f32;
+    reflected * incident.color * visibility.part
 }

@@ -51,7 +51,7 @@ pub fn visibility<V: Traversal, const FULL: bool>(
         direction: incident.direction,
         t_max: incident.reach,
     };
-    if !FULL || frame.features & TRANSPARENT == 0 {
+    if !FULL || (V::SHADOWS_APART && frame.features & TRANSPARENT == 0) {
         return Visibility::of(if any_hit::<V, FULL>(frame, world, &ray) {
             Vec3::ZERO
         } else {

@@ -8,6 +8,10 @@ use crate::triangle_test::Watertight;
 
 /// A way to find a ray's hits among all triangles of a scene.
 pub trait Traversal {
+    /// Whether shadow rays through scenes without transparency ask for any hit. Those that do not ask for the closest one,
+    /// as others do: the traversal is in the kernel once less.
+    const SHADOWS_APART: bool = true;
+
     /// The hit with the smallest `t` within the ray's limits, of equal ones the triangle with the lowest id.
     ///
     /// A miss has the ray's `t_max` and no triangle.

@@ -16,6 +16,9 @@ pub trait Walk {
     /// What a leaf is.
     type Leaf: Leaf;
 
+    /// See [`Traversal::SHADOWS_APART`].
+    const SHADOWS_APART: bool = true;
+
     /// Takes a ray to the structure, with the box test `B`.
     #[inline(always)]
     fn enter<B: BoxTest>(scene: &Scene<'_>, ray: &Ray) -> Entered {
@@ -109,21 +112,36 @@ impl Leaf for Some32 {
 }
 
 /// The search along the way `W`, with the box test `B` at the structure's box and the triangle test `T` in the leaves.
+///
+/// Its loops ask at their end whether to go on: one that asks at its beginning becomes a branch inside of a loop that asks
+/// once more, and closest hits take a tenth longer on a GPU.
 pub struct Along<W, B, T>(PhantomData<(W, B, T)>);
 
 impl<W: Walk, B: BoxTest, T: TriangleTest> Traversal for Along<W, B, T> {
+    const SHADOWS_APART: bool = W::SHADOWS_APART;
+
     #[inline(always)]
     fn closest_hit(scene: &Scene<'_>, ray: &Ray) -> Hit {
         let entered = W::enter::<B>(scene, ray);
         let mut best = Hit::miss(entered.ray.t_max);
         let test = T::prepare_in(scene, &entered.ray);
         let mut walk = W::new(scene, &entered);
-        while walk.goes_on() {
-            let mut leaf = walk.leaf(scene, best.t);
-            while leaf.remains() {
-                nearer(scene, &test, leaf.take(scene), entered.ray.t_min, &mut best);
+        if walk.goes_on() {
+            loop {
+                let mut leaf = walk.leaf(scene, best.t);
+                if leaf.remains() {
+                    loop {
+                        nearer(scene, &test, leaf.take(scene), entered.ray.t_min, &mut best);
+                        if !leaf.remains() {
+                            break;
+                        }
+                    }
+                }
+                walk.leave(best.t);
+                if !walk.goes_on() {
+                    break;
+                }
             }
-            walk.leave(best.t);
         }
         entered.left(ray, best)
     }
@@ -134,12 +152,22 @@ impl<W: Walk, B: BoxTest, T: TriangleTest> Traversal for Along<W, B, T> {
         let mut found = false;
         let test = T::prepare_in(scene, &entered.ray);
         let mut walk = W::new(scene, &entered);
-        while walk.goes_on() & !found {
-            let mut leaf = walk.leaf(scene, entered.ray.t_max);
-            while leaf.remains() & !found {
-                found = within(scene, &test, leaf.take(scene), &entered.ray);
+        if walk.goes_on() {
+            loop {
+                let mut leaf = walk.leaf(scene, entered.ray.t_max);
+                if leaf.remains() {
+                    loop {
+                        found = within(scene, &test, leaf.take(scene), &entered.ray);
+                        if found | !leaf.remains() {
+                            break;
+                        }
+                    }
+                }
+                walk.leave(entered.ray.t_max);
+                if found | !walk.goes_on() {
+                    break;
+                }
             }
-            walk.leave(entered.ray.t_max);
         }
         found
     }

@@ -1,7 +1,7 @@
 //! The tree of a ray's reflections and refractions.
 
 use crate::arithmetic::max_component;
-use crate::buffer::load;
+use crate::buffer::{Stack, load};
 use crate::frame::Frame;
 use crate::material::FRESNEL;
 use crate::medium::Media;
@@ -84,8 +84,7 @@ pub fn trace<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Trace
         weight: Vec3::ONE,
         media: Media::of_eye(frame.media),
     };
-    let mut stack = [next; MAX_DEPTH as usize];
-    let mut waiting = 0;
+    let mut stack: Stack<Pending, { MAX_DEPTH as usize }> = Stack::new(next);
     loop {
         traced.rays += 1;
         let children = follow::<V>(frame, world, &next, &mut traced);
@@ -104,8 +103,7 @@ pub fn trace<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Trace
             {
                 if is_found {
                     // Of rays at the same depth one waits at most, so there is room.
-                    stack[waiting] = child;
-                    waiting += 1;
+                    stack.push(child);
                 } else {
                     next = child;
                     is_found = true;
@@ -122,11 +120,10 @@ pub fn trace<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Trace
             }
         }
         if !is_found {
-            if waiting == 0 {
+            if stack.waiting == 0 {
                 return traced;
             }
-            waiting -= 1;
-            next = stack[waiting];
+            next = stack.pop();
         }
     }
 }

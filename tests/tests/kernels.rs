@@ -150,9 +150,17 @@ fn kernels_that_do_not_fit_are_told_why() {
     let mut other = good.clone();
     other.manifest.bindings = BINDINGS + 1;
     other.write(folder.path());
-    refused(&["has bindings 2", "has bindings 1"]);
+    let (theirs, ours) = (
+        format!("has bindings {}", BINDINGS + 1),
+        format!("has bindings {BINDINGS}"),
+    );
+    refused(&[&theirs, &ours]);
     let text = fs::read_to_string(path("manifest.toml")).unwrap();
-    fs::write(path("manifest.toml"), text.replace("bindings = 2\n", "")).unwrap();
+    fs::write(
+        path("manifest.toml"),
+        text.replace(&format!("bindings = {}\n", BINDINGS + 1), ""),
+    )
+    .unwrap();
     refused(&["bindings without a number"]);
 
     good.renamed("hits", "hats").write(folder.path());

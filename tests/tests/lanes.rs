@@ -3,7 +3,7 @@
 #![cfg(test)]
 
 use oktant_shared::hit::Hit;
-use oktant_shared::octants::Octants;
+use oktant_shared::octants::{NODE_VECTORS, Octants};
 use oktant_shared::parts::TraversalKind;
 use oktant_shared::ray::Ray;
 use oktant_shared::scene::Scene;
@@ -59,4 +59,31 @@ fn baldwin_weber_hits_are_the_same() {
 #[test]
 fn plucker_hits_are_the_same() {
     compare::<Plucker>("plucker");
+}
+
+/// Rays at a scene whose arrays end too early.
+fn cut(cut: impl for<'a> Fn(Scene<'a>) -> Scene<'a>) {
+    let subject = &Subject::all()[0];
+    let scene = subject.scene(TraversalKind::Octants);
+    for ray in subject.rays(RayClass::ALL[0], 1000) {
+        Octants::<Watertight>::closest_hit(&cut(scene.view()), &ray);
+    }
+}
+
+#[test]
+#[should_panic = "there is no such node"]
+fn nodes_that_are_not_there_are_not_read() {
+    cut(|scene| Scene {
+        nodes: &scene.nodes[..NODE_VECTORS as usize],
+        ..scene
+    });
+}
+
+#[test]
+#[should_panic = "there is no such triangle"]
+fn triangles_that_are_not_there_are_not_read() {
+    cut(|scene| Scene {
+        triangles: &scene.triangles[..3],
+        ..scene
+    });
 }

@@ -3,10 +3,11 @@
 #![cfg(test)]
 
 use glam::Vec3;
+use oktant::build_error::BuildError;
 use oktant::mesh::Mesh;
 use oktant::progress::silent;
 use oktant::shapes::stadium;
-use oktant::tree::{BinaryTree, BuildPreset, CollapseOptions, MAX_BINARY_DEPTH, MAX_LEAF, TreeError, WideTree};
+use oktant::tree::{BinaryTree, BuildPreset, CollapseOptions, MAX_BINARY_DEPTH, MAX_LEAF, WideTree};
 use oktant_tests::data::reference;
 use oktant_tests::meshes;
 use rayon::ThreadPoolBuilder;
@@ -157,10 +158,10 @@ fn triangles_without_area_are_left_out_and_counted() {
         let tree = BinaryTree::build(&bare([flat, TRIANGLE, flat]), preset, &silent).unwrap();
         assert_eq!((tree.order, tree.degenerate), (vec![1], 2));
         let build = |mesh: &Mesh| BinaryTree::build(mesh, preset, &silent).unwrap_err();
-        assert_eq!(build(&bare([flat])), TreeError::NoArea);
-        assert_eq!(build(&Mesh::default()), TreeError::NoArea);
-        assert_eq!(build(&bare([TRIANGLE.map(|p| p * 1e13)])), TreeError::Extent(1e13));
-        assert_eq!(build(&bare([TRIANGLE.map(|p| p * 1e-13)])), TreeError::Extent(1e-13));
+        assert_eq!(build(&bare([flat])), BuildError::NoArea);
+        assert_eq!(build(&Mesh::default()), BuildError::NoArea);
+        assert_eq!(build(&bare([TRIANGLE.map(|p| p * 1e13)])), BuildError::Extent(1e13));
+        assert_eq!(build(&bare([TRIANGLE.map(|p| p * 1e-13)])), BuildError::Extent(1e-13));
     }
 }
 

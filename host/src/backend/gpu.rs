@@ -146,7 +146,7 @@ impl GpuBackend {
 }
 
 /// A device that has been idle takes so long to reach its clock again.
-const WARM_UP: Duration = Duration::from_millis(100);
+const WARM_UP: Duration = Duration::from_millis(300);
 
 /// Measures `repeats` times, after as many that do not count as the device needs to wake up.
 fn timed(repeats: u32, once: impl Fn() -> Result<f64, BackendError>) -> Result<Vec<f64>, BackendError> {

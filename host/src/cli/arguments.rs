@@ -12,7 +12,7 @@ pub use bench::{BenchArguments, BenchTable};
 pub use compare::CompareArguments;
 pub use look::{LookArguments, StereoArgument};
 pub use stability::StabilityArguments;
-pub use values::{Aovs, Octree, Size};
+pub use values::{Aovs, Grid, Octree, Size};
 
 use super::Failure;
 use super::engine::EngineOptions;
@@ -26,7 +26,7 @@ use oktant_shared::parts::{BoxKind, Parts, TraversalKind, TriangleKind};
 use refusal::refusal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use values::{aovs, box_test, octree, preset, size, traversal, triangle};
+use values::{aovs, box_test, grid, octree, preset, size, traversal, triangle};
 
 /// Interactive ray tracer of triangle meshes whose GPU kernel is written in Rust.
 ///
@@ -201,6 +201,10 @@ pub struct StructureArguments {
     /// (references per triangle at most), separated by commas.
     #[arg(long, value_name = "depth=D,leaf=N,budget=N", value_parser = octree, default_value = "")]
     pub octree: Octree,
+    /// Limits of the grid, any of density=D (cells for each triangle, 0.01 to 100) and budget=N (references per triangle
+    /// at most), separated by commas.
+    #[arg(long, value_name = "density=D,budget=N", value_parser = grid, default_value = "")]
+    pub grid: Grid,
 }
 
 impl StructureArguments {
@@ -221,7 +225,7 @@ impl StructureArguments {
             parts,
             preset: self.build,
             octree: self.octree.0,
-            ..StructureOptions::default()
+            grid: self.grid.0,
         })
     }
 }

@@ -150,5 +150,5 @@ fn one_triangle_and_none() {
     assert_eq!(grid.ids, [0]);
     assert!(!grid.references.is_empty());
     let none = Grid::build(&Mesh::default(), &GridOptions::default(), &silent);
-    assert!(matches!(none, Err(OctreeError::NoArea)));
+    assert!(matches!(none, Err(BuildError::NoArea)));
 }

@@ -1,8 +1,9 @@
 //! Building an octree, level by level.
 
+use super::Octree;
 use super::overlap::overlapped_children;
 use super::root::root;
-use super::{Octree, OctreeError};
+use crate::build_error::BuildError;
 use crate::hittable::Hittable;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
@@ -58,7 +59,7 @@ struct Split {
     total: usize,
 }
 
-pub(super) fn build(mesh: &Mesh, options: &OctreeOptions, progress: Progress<'_>) -> Result<Octree, OctreeError> {
+pub(super) fn build(mesh: &Mesh, options: &OctreeOptions, progress: Progress<'_>) -> Result<Octree, BuildError> {
     let hittable = Hittable::of(mesh)?;
     let root = root(hittable.low, hittable.high, options.depth)?;
     let budget = hittable.ids.len() * options.budget as usize;

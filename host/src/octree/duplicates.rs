@@ -3,6 +3,8 @@
 use crate::mesh::Mesh;
 use glam::Vec3;
 use rayon::prelude::*;
+use std::sync::atomic::AtomicU64;
+use std::sync::atomic::Ordering::Relaxed;
 
 /// The triangles that can be hit, ascending, and how many cannot.
 pub(crate) struct Distinct {
@@ -16,22 +18,41 @@ pub(crate) struct Distinct {
 
 /// The slots of triangles that lie exactly on one with a lower id; `ids` are the triangles' by slot.
 pub(crate) fn duplicates(mesh: &Mesh, ids: &[u32]) -> Vec<u32> {
-    let corners = |id: u32| mesh.triangles[id as usize].map(|index| mesh.positions[index as usize]);
-    let mut hashed: Vec<(u64, u32)> = ids
+    let of_corners: Vec<u32> = mesh.positions.par_iter().with_min_len(BLOCK).map(hash).collect();
+    // The same in whatever order the corners come.
+    let hash = |id: u32| {
+        let [a, b, c] = mesh.triangles[id as usize].map(|index| of_corners[index as usize]);
+        a.wrapping_add(b).wrapping_add(c).wrapping_mul(0x9e37_79b1)
+    };
+    let hashes: Vec<u32> = ids.par_iter().with_min_len(BLOCK).map(|id| hash(*id)).collect();
+    // Few triangles share their bit with another one; only those are looked at closely.
+    let seen = Marks::new(ids.len());
+    let shared: Vec<u32> = hashes
+        .par_iter()
+        .with_min_len(BLOCK)
+        .copied()
+        .filter(|hash| seen.mark(*hash))
+        .collect();
+    let suspect = Marks::new(shared.len());
+    for hash in shared {
+        suspect.mark(hash);
+    }
+    let mut suspects: Vec<(u32, u32)> = hashes
         .par_iter()
         .enumerate()
-        .map(|(slot, id)| (hash(&corners(*id)), slot as u32))
+        .with_min_len(BLOCK)
+        .filter(|(_, hash)| suspect.is_marked(**hash))
+        .map(|(slot, hash)| (*hash, slot as u32))
         .collect();
-    hashed.par_sort_unstable();
+    suspects.par_sort_unstable_by_key(|(hash, slot)| (*hash, ids[*slot as usize]));
     let mut duplicates = Vec::new();
-    for group in hashed.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1) {
+    for group in suspects.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1) {
         let mut known: Vec<[[u32; 3]; 3]> = Vec::new();
-        let mut slots: Vec<u32> = group.iter().map(|(_, slot)| *slot).collect();
-        slots.sort_unstable_by_key(|slot| ids[*slot as usize]);
-        for slot in slots {
-            let key = sorted(&corners(ids[slot as usize]));
+        for (_, slot) in group {
+            let corners = mesh.triangles[ids[*slot as usize] as usize].map(|index| mesh.positions[index as usize]);
+            let key = sorted(&corners);
             if known.contains(&key) {
-                duplicates.push(slot);
+                duplicates.push(*slot);
             } else {
                 known.push(key);
             }
@@ -42,34 +63,24 @@ pub(crate) fn duplicates(mesh: &Mesh, ids: &[u32]) -> Vec<u32> {
 
 /// Sorts out what no ray can hit, or not first: of coincident triangles the lowest id wins anyway.
 pub(crate) fn distinct(mesh: &Mesh, corners: &[[Vec3; 3]]) -> Distinct {
-    // Sorted by a hash of the corners, equal triangles are neighbours.
-    let mut hashed: Vec<(u64, u32)> = corners
-        .par_iter()
-        .enumerate()
-        .filter(|(_, corners)| has_area(corners))
-        .map(|(id, corners)| (hash(corners), id as u32))
+    let mut ids: Vec<u32> = (0..corners.len() as u32)
+        .into_par_iter()
+        .filter(|id| has_area(&corners[*id as usize]))
         .collect();
-    let degenerate = (mesh.triangles.len() - hashed.len()) as u32;
-    hashed.par_sort_unstable();
-    let mut ids = Vec::with_capacity(hashed.len());
-    for group in hashed.chunk_by(|a, b| a.0 == b.0) {
-        let first = ids.len();
-        for (_, id) in group {
-            let key = sorted(&corners[*id as usize]);
-            let known = ids[first..]
-                .iter()
-                .any(|other: &u32| sorted(&corners[*other as usize]) == key);
-            if !known {
-                ids.push(*id);
-            }
-        }
-    }
-    let duplicates = (hashed.len() - ids.len()) as u32;
-    ids.par_sort_unstable();
+    let degenerate = (corners.len() - ids.len()) as u32;
+    let mut duplicates = duplicates(mesh, &ids);
+    duplicates.sort_unstable();
+    let mut slot = 0;
+    let mut others = duplicates.iter().peekable();
+    ids.retain(|_| {
+        let is_other = others.next_if_eq(&&slot).is_some();
+        slot += 1;
+        !is_other
+    });
     Distinct {
         ids,
         degenerate,
-        duplicates,
+        duplicates: duplicates.len() as u32,
     }
 }
 
@@ -86,16 +97,52 @@ fn sorted(corners: &[Vec3; 3]) -> [[u32; 3]; 3] {
     bits
 }
 
-/// Any even spread will do: equal hashes are compared in full.
-fn hash(corners: &[Vec3; 3]) -> u64 {
-    sorted(corners)
-        .as_flattened()
-        .iter()
-        .fold(0xcbf2_9ce4_8422_2325, |hash, word| {
-            (hash ^ u64::from(*word))
-                .wrapping_mul(0x9e37_79b9_7f4a_7c15)
-                .rotate_left(29)
-        })
+/// Of a corner; the two zeros are one. Any even spread will do: triangles of equal hashes are compared in full.
+fn hash(corner: &Vec3) -> u32 {
+    let hash = corner.to_array().iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, x| {
+        (hash ^ u64::from((x + 0.0).to_bits()))
+            .wrapping_mul(0x9e37_79b9_7f4a_7c15)
+            .rotate_left(29)
+    });
+    (hash ^ hash >> 32) as u32
+}
+
+/// Triangles that are worth a thread.
+const BLOCK: usize = 1 << 13;
+
+/// Bits for the hashes of so many triangles, several for each.
+struct Marks {
+    words: Vec<AtomicU64>,
+    /// Bits of a hash that do not count.
+    shift: u32,
+}
+
+impl Marks {
+    fn new(triangles: usize) -> Self {
+        let bits = (32 * triangles).next_power_of_two().clamp(64, 1 << 32);
+        let mut words = Vec::new();
+        words.resize_with(bits / 64, AtomicU64::default);
+        Marks {
+            words,
+            shift: 32 - bits.ilog2(),
+        }
+    }
+
+    fn place(&self, hash: u32) -> (&AtomicU64, u64) {
+        let place = u64::from(hash) >> self.shift;
+        (&self.words[place as usize / 64], 1 << (place % 64))
+    }
+
+    /// Marks a hash; whether it or one like it was marked before.
+    fn mark(&self, hash: u32) -> bool {
+        let (word, bit) = self.place(hash);
+        word.fetch_or(bit, Relaxed) & bit != 0
+    }
+
+    fn is_marked(&self, hash: u32) -> bool {
+        let (word, bit) = self.place(hash);
+        word.load(Relaxed) & bit != 0
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The cube around a mesh, with cell planes that f32 holds exactly.
 
-use super::OctreeError;
+use crate::build_error::BuildError;
 use glam::Vec3;
 use oktant_shared::octree::{MAX_DEPTH, Root};
 
@@ -18,11 +18,11 @@ const UNITS: f64 = 64.0;
 /// times a power of two; odd, because the planes of axis-aligned meshes then seldom coincide with those of cells, which
 /// would put their triangles into the cells of both sides. There is at least a unit of room on every side. Where the
 /// mesh lies so far from the origin that f32 could not hold the planes of small cells, the depth is less.
-pub(crate) fn root(low: Vec3, high: Vec3, depth: u32) -> Result<Root, OctreeError> {
+pub(crate) fn root(low: Vec3, high: Vec3, depth: u32) -> Result<Root, BuildError> {
     let (low, high) = (low.as_dvec3(), high.as_dvec3());
     let extent = (high - low).max_element();
     if !(f64::from(SMALLEST_EXTENT)..=f64::from(LARGEST_EXTENT)).contains(&extent) {
-        return Err(OctreeError::Extent(extent as f32));
+        return Err(BuildError::Extent(extent as f32));
     }
     let unit = 2.0_f64.powi(extent.log2().ceil() as i32) / UNITS;
     let first = (low / unit).floor() - 1.0;
@@ -78,10 +78,10 @@ mod tests {
 
     #[test]
     fn meshes_beyond_single_precision_are_refused() {
-        assert!(matches!(root(Vec3::ZERO, Vec3::ZERO, 8), Err(OctreeError::Extent(_))));
+        assert!(matches!(root(Vec3::ZERO, Vec3::ZERO, 8), Err(BuildError::Extent(_))));
         assert!(matches!(
             root(Vec3::ZERO, Vec3::splat(1e13), 8),
-            Err(OctreeError::Extent(_))
+            Err(BuildError::Extent(_))
         ));
     }
 }

@@ -1,17 +1,10 @@
 //! What can be wrong with a file of rays, each said in one sentence.
 
-use crate::array_file::FileFault;
+use crate::array_file::{FileFault, UnusableFile};
 use thiserror::Error;
 
-/// A file of rays that cannot be used: its name and what is wrong with it, printed as one sentence.
-#[derive(Debug, Error)]
-#[error("{file}: {fault}")]
-pub struct RaysError {
-    /// The file.
-    pub file: String,
-    /// What is wrong with it and what to do.
-    pub fault: Fault,
-}
+/// A file of rays that cannot be used.
+pub type RaysError = UnusableFile<Fault>;
 
 /// What is wrong with a file of rays.
 #[derive(Debug, Error)]

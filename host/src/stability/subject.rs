@@ -159,13 +159,18 @@ impl Subject {
 
     /// Rays that cross more triangles by the test `T` than they do exactly, of those that cross any.
     pub fn doubled<T: TriangleTest>(&self) -> usize {
+        self.doubled_by(T::prepare)
+    }
+
+    /// The same by a test that is prepared otherwise.
+    pub fn doubled_by<T: TriangleTest>(&self, prepare: impl Fn(&PreparedRay) -> T + Sync) -> usize {
         let doubled = |ray: &&Ray| {
             let prepared = PreparedRay::new(ray);
             let exact = for_oracle(ray);
             if !prepared.valid || !exact.is_valid() {
                 return false;
             }
-            let test = T::prepare(&prepared);
+            let test = prepare(&prepared);
             // No test that is any good is off by more.
             let reach = 1e-5 * (exact.origin.length() + self.oracle.bounds().1.abs().max_element());
             let crossed = self.oracle.triangles_within(&exact, reach).into_iter().filter(|id| {

@@ -2,7 +2,8 @@
 
 use super::items::Items;
 use super::pages::Pages;
-use super::{BuildPreset, InvalidTree, TreeError, preset};
+use super::{BuildPreset, InvalidTree, each_once, preset};
+use crate::build_error::BuildError;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use bytemuck::{Pod, Zeroable};
@@ -58,8 +59,8 @@ impl BinaryTree {
     /// Builds the tree of a mesh; the same one for the same mesh, whatever the number of threads.
     ///
     /// # Errors
-    /// [`TreeError`] where the mesh has nothing to build it from.
-    pub fn build(mesh: &Mesh, preset: BuildPreset, progress: Progress<'_>) -> Result<Self, TreeError> {
+    /// [`BuildError`] where the mesh has nothing to build it from.
+    pub fn build(mesh: &Mesh, preset: BuildPreset, progress: Progress<'_>) -> Result<Self, BuildError> {
         let items = Items::of(mesh)?;
         let degenerate = items.degenerate;
         let (nodes, order) = preset::build(preset, items, progress);
@@ -76,16 +77,7 @@ impl BinaryTree {
     /// The first broken rule.
     pub fn validate(&self, mesh: &Mesh) -> Result<(), InvalidTree> {
         let invalid = |rule: String| Err(InvalidTree(rule));
-        if self.order.len() + self.degenerate as usize != mesh.triangles.len() {
-            return invalid(format!("it has {} slots", self.order.len()));
-        }
-        let mut seen = vec![false; mesh.triangles.len()];
-        for &id in &self.order {
-            match seen.get_mut(id as usize) {
-                Some(seen) if !*seen => *seen = true,
-                _ => return invalid(format!("triangle {id} is in it twice or not in the mesh")),
-            }
-        }
+        each_once(&self.order, self.degenerate, mesh.triangles.len())?;
         let (mut next_slot, mut next_node) = (0, 1);
         // First child last, so that it comes first.
         let mut open = vec![(0_usize, 0_u32)];

@@ -1,5 +1,6 @@
 //! Which nodes of a binary tree become children of a wide tree, at the least cost.
 
+use super::BuildPreset;
 use super::binary::{BinaryNode, BinaryTree};
 use super::metrics::Costs;
 use super::pages::Pages;
@@ -16,6 +17,19 @@ pub struct CollapseOptions {
     pub costs: Costs,
     /// How well children are put into slots.
     pub placing: Placing,
+}
+
+impl CollapseOptions {
+    /// What a preset makes of it.
+    pub fn of(preset: BuildPreset) -> Self {
+        CollapseOptions {
+            placing: match preset {
+                BuildPreset::Fast | BuildPreset::Balanced => Placing::Greedy,
+                BuildPreset::Quality => Placing::Best,
+            },
+            ..CollapseOptions::default()
+        }
+    }
 }
 
 impl Default for CollapseOptions {

@@ -1,7 +1,7 @@
 //! What trees are built over: the boxes of triangles.
 
-use super::TreeError;
 use super::pages::Pages;
+use crate::build_error::BuildError;
 use crate::mesh::Mesh;
 use crate::octree::{LARGEST_EXTENT, SMALLEST_EXTENT, has_area};
 use bytemuck::{Pod, Zeroable};
@@ -103,7 +103,7 @@ const BLOCK: usize = 1 << 14;
 
 impl Items {
     /// Boxes round the triangles of a mesh.
-    pub fn of(mesh: &Mesh) -> Result<Self, TreeError> {
+    pub fn of(mesh: &Mesh) -> Result<Self, BuildError> {
         let mut items = Pages::<Item>::zeroed(mesh.triangles.len());
         // Those with an area to the front of each block.
         let blocks: Vec<(Bounds, usize)> = items
@@ -136,11 +136,11 @@ impl Items {
         let degenerate = (mesh.triangles.len() - count) as u32;
         items.truncate(count);
         if items.is_empty() {
-            return Err(TreeError::NoArea);
+            return Err(BuildError::NoArea);
         }
         let extent = (bounds.high - bounds.low).truncate().as_dvec3().max_element();
         if !(f64::from(SMALLEST_EXTENT)..=f64::from(LARGEST_EXTENT)).contains(&extent) {
-            return Err(TreeError::Extent(extent as f32));
+            return Err(BuildError::Extent(extent as f32));
         }
         Ok(Items {
             items,

@@ -14,11 +14,11 @@ pub struct Costs {
 }
 
 impl Default for Costs {
-    /// Those of Ylitie et al. 2017 for nodes of eight children.
+    /// Ylitie et al. 2017 count 0.3 for a triangle; here leaves that are smaller by that are 1 to 3 % faster on a GPU.
     fn default() -> Self {
         Costs {
             node: 1.0,
-            triangle: 0.3,
+            triangle: 0.5,
         }
     }
 }

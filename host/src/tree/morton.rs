@@ -18,6 +18,7 @@ pub(super) struct MortonOrder {
     words: Vec<u64>,
     /// Bits of an index.
     rest: u32,
+    /// In that order.
     items: Pages<Item>,
 }
 
@@ -40,7 +41,15 @@ impl MortonOrder {
         };
         let words = items.par_iter().enumerate().with_min_len(BLOCK).map(word).collect();
         let words = radix::sorted(words, rest, 3 * bits);
-        MortonOrder { words, rest, items }
+        // Fetched from all over memory at once, not one by one when they are needed.
+        let mut sorted = Pages::<Item>::zeroed(items.len());
+        let pairs = sorted.par_iter_mut().zip(&words).with_min_len(BLOCK);
+        pairs.for_each(|(item, word)| *item = items[(word & ((1 << rest) - 1)) as usize]);
+        MortonOrder {
+            words,
+            rest,
+            items: sorted,
+        }
     }
 
     /// Number of items.
@@ -50,7 +59,7 @@ impl MortonOrder {
 
     /// The item at a place in the order.
     pub fn item(&self, place: usize) -> Item {
-        self.items[(self.words[place] & ((1 << self.rest) - 1)) as usize]
+        self.items[place]
     }
 
     /// Where the items of the upper half of a range's smallest cell begin; `None` where all codes are the same.

@@ -8,7 +8,7 @@ use crate::progress::Progress;
 /// Times that the largest nodes are reinserted.
 const ROUNDS: usize = 3;
 /// One of so many nodes is reinserted in a round.
-const PART: usize = 8;
+const PART: usize = 2;
 /// Reinsertions between two reports of progress.
 const REPORT: usize = 1 << 10;
 

@@ -2,7 +2,8 @@
 
 use super::binary::BinaryTree;
 use super::collapse::CollapseOptions;
-use super::{BuildPreset, InvalidTree, TreeError};
+use super::{BuildPreset, InvalidTree, each_once};
+use crate::build_error::BuildError;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use glam::Vec3;
@@ -89,13 +90,13 @@ impl WideTree {
     /// Builds the tree of a mesh; the same one for the same mesh, whatever the number of threads.
     ///
     /// # Errors
-    /// [`TreeError`] where the mesh has nothing to build it from.
+    /// [`BuildError`] where the mesh has nothing to build it from.
     pub fn build(
         mesh: &Mesh,
         preset: BuildPreset,
         options: &CollapseOptions,
         progress: Progress<'_>,
-    ) -> Result<Self, TreeError> {
+    ) -> Result<Self, BuildError> {
         Ok(Self::of(&BinaryTree::build(mesh, preset, progress)?, options))
     }
 
@@ -116,16 +117,7 @@ impl WideTree {
     /// The first broken rule.
     pub fn validate(&self, mesh: &Mesh, depth: u32) -> Result<(), InvalidTree> {
         let invalid = |rule: String| Err(InvalidTree(rule));
-        if self.order.len() + self.degenerate as usize != mesh.triangles.len() {
-            return invalid(format!("it has {} slots", self.order.len()));
-        }
-        let mut seen = vec![false; mesh.triangles.len()];
-        for &id in &self.order {
-            match seen.get_mut(id as usize) {
-                Some(seen) if !*seen => *seen = true,
-                _ => return invalid(format!("triangle {id} is in it twice or not in the mesh")),
-            }
-        }
+        each_once(&self.order, self.degenerate, mesh.triangles.len())?;
         let (mut nodes, mut triangles) = (1, 0);
         let mut open = vec![(0_u32, 0)];
         while let Some((index, level)) = open.pop() {

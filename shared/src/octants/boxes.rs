@@ -1,80 +1,85 @@
 //! A ray against the eight boxes of a node.
 
-use crate::arithmetic::{greater, lesser, multiply_add};
+use crate::arithmetic::{greater_integer, halves, lesser_integer, multiply_add};
 use crate::buffer::load;
 use crate::slabs::Slabs;
 use glam::{UVec4, Vec3};
 
-/// Bit `slot` for each child of the node at `at` whose box the ray meets between `t_min` and `limit`. `frame` are the
-/// node's first words: corner and steps of its raster.
+/// Bit `slot` for each child of the node at `at` whose box the ray meets between `t_min` and `limit`, neither of which is
+/// negative. `frame` are the node's first words: corner and sizes of its raster.
 #[inline(always)]
 pub(super) fn met(slabs: &Slabs, nodes: &[UVec4], at: u32, frame: UVec4, t_min: f32, limit: f32) -> u32 {
-    let x = nearer_first(load(nodes, at + 2), slabs.octant & 1 != 0);
-    let y = nearer_first(load(nodes, at + 3), slabs.octant & 2 != 0);
-    let z = nearer_first(load(nodes, at + 4), slabs.octant & 4 != 0);
-    // Exact: the steps are powers of two.
-    let step = Vec3::new(
-        f32::from_bits((frame.w & 0xff) << 23) * slabs.reciprocal.x,
-        f32::from_bits((frame.w >> 8 & 0xff) << 23) * slabs.reciprocal.y,
-        f32::from_bits((frame.w >> 16 & 0xff) << 23) * slabs.reciprocal.z,
-    );
-    let start = Vec3::new(
-        multiply_add(f32::from_bits(frame.x), slabs.reciprocal.x, slabs.offset.x),
-        multiply_add(f32::from_bits(frame.y), slabs.reciprocal.y, slabs.offset.y),
-        multiply_add(f32::from_bits(frame.z), slabs.reciprocal.z, slabs.offset.z),
-    );
-    let four = |near: Vec3Words, far: Vec3Words, first: u32| {
-        let one = |shift: u32, bit: u32| {
-            let enter = greater(
-                greater(
-                    multiply_add(byte(near.x, shift), step.x, start.x),
-                    multiply_add(byte(near.y, shift), step.y, start.y),
-                ),
-                greater(multiply_add(byte(near.z, shift), step.z, start.z), t_min),
-            );
-            let exit = lesser(
-                lesser(
-                    multiply_add(byte(far.x, shift), step.x, start.x),
-                    multiply_add(byte(far.y, shift), step.y, start.y),
-                ),
-                lesser(multiply_add(byte(far.z, shift), step.z, start.z), limit),
-            );
-            if enter <= exit { bit } else { 0 }
-        };
-        one(0, first) | one(8, first << 1) | one(16, first << 2) | one(24, first << 3)
+    // Low faces lie before high ones; a ray against the axis meets those first.
+    let (x, y, z) = (slabs.octant & 1, slabs.octant >> 1 & 1, slabs.octant >> 2 & 1);
+    let near_x = load(nodes, at + 2 + x);
+    let far_x = load(nodes, at + 3 - x);
+    let near_y = load(nodes, at + 4 + y);
+    let far_y = load(nodes, at + 5 - y);
+    let near_z = load(nodes, at + 6 + z);
+    let far_z = load(nodes, at + 7 - z);
+    let raster = Raster {
+        // Exact: the sizes are powers of two.
+        size: Vec3::new(
+            f32::from_bits((frame.w & 0xff) << 23) * slabs.reciprocal.x,
+            f32::from_bits((frame.w >> 8 & 0xff) << 23) * slabs.reciprocal.y,
+            f32::from_bits((frame.w >> 16 & 0xff) << 23) * slabs.reciprocal.z,
+        ),
+        start: Vec3::new(
+            multiply_add(f32::from_bits(frame.x), slabs.reciprocal.x, slabs.offset.x),
+            multiply_add(f32::from_bits(frame.y), slabs.reciprocal.y, slabs.offset.y),
+            multiply_add(f32::from_bits(frame.z), slabs.reciprocal.z, slabs.offset.z),
+        ),
+        t_min: t_min.to_bits() as i32,
+        limit: limit.to_bits() as i32,
     };
-    let (near_low, far_low) = (
-        Vec3Words { x: x.x, y: y.x, z: z.x },
-        Vec3Words { x: x.z, y: y.z, z: z.z },
-    );
-    let (near_high, far_high) = (
-        Vec3Words { x: x.y, y: y.y, z: z.y },
-        Vec3Words { x: x.w, y: y.w, z: z.w },
-    );
-    four(near_low, far_low, 1) | four(near_high, far_high, 16)
+    raster.two([near_x.x, near_y.x, near_z.x], [far_x.x, far_y.x, far_z.x], 1)
+        | raster.two([near_x.y, near_y.y, near_z.y], [far_x.y, far_y.y, far_z.y], 4)
+        | raster.two([near_x.z, near_y.z, near_z.z], [far_x.z, far_y.z, far_z.z], 16)
+        | raster.two([near_x.w, near_y.w, near_z.w], [far_x.w, far_y.w, far_z.w], 64)
 }
 
-/// Faces of four boxes across each axis, a byte each.
-#[derive(Clone, Copy)]
-struct Vec3Words {
-    x: u32,
-    y: u32,
-    z: u32,
+/// A node's raster as a ray sees it.
+struct Raster {
+    /// From one end of it to the other, in `t`.
+    size: Vec3,
+    /// Where the raster begins.
+    start: Vec3,
+    /// The bits of the limits of `t`.
+    t_min: i32,
+    limit: i32,
 }
 
-#[inline(always)]
-fn byte(word: u32, shift: u32) -> f32 {
-    (word >> shift & 0xff) as f32
-}
+impl Raster {
+    /// `bit` for the first and the next higher bit for the second of two children whose faces, in halves of a word across
+    /// x, y and z, are met.
+    #[inline(always)]
+    fn two(&self, near: [u32; 3], far: [u32; 3], bit: u32) -> u32 {
+        let (near_x, near_y, near_z) = (halves(near[0]), halves(near[1]), halves(near[2]));
+        let (far_x, far_y, far_z) = (halves(far[0]), halves(far[1]), halves(far[2]));
+        let first = self.is_met(
+            Vec3::new(near_x.x, near_y.x, near_z.x),
+            Vec3::new(far_x.x, far_y.x, far_z.x),
+        );
+        let second = self.is_met(
+            Vec3::new(near_x.y, near_y.y, near_z.y),
+            Vec3::new(far_x.y, far_y.y, far_z.y),
+        );
+        (if first { bit } else { 0 }) | (if second { bit << 1 } else { 0 })
+    }
 
-/// Swaps low and high faces.
-#[inline(always)]
-fn nearer_first(faces: UVec4, is_reversed: bool) -> UVec4 {
-    let (a, b, c, d) = (faces.x, faces.y, faces.z, faces.w);
-    UVec4::new(
-        if is_reversed { c } else { a },
-        if is_reversed { d } else { b },
-        if is_reversed { a } else { c },
-        if is_reversed { b } else { d },
-    )
+    /// Numbers that are not negative have the order of their bits, and those of a negative one are a negative integer: as
+    /// neither limit is negative, integers are as good, and some GPUs compare three of them at once.
+    #[inline(always)]
+    fn is_met(&self, near: Vec3, far: Vec3) -> bool {
+        let at = |face: f32, size: f32, start: f32| multiply_add(face, size, start).to_bits() as i32;
+        let enter_x = at(near.x, self.size.x, self.start.x);
+        let enter_y = at(near.y, self.size.y, self.start.y);
+        let enter_z = at(near.z, self.size.z, self.start.z);
+        let exit_x = at(far.x, self.size.x, self.start.x);
+        let exit_y = at(far.y, self.size.y, self.start.y);
+        let exit_z = at(far.z, self.size.z, self.start.z);
+        let enter = greater_integer(greater_integer(greater_integer(enter_x, enter_y), enter_z), self.t_min);
+        let exit = lesser_integer(lesser_integer(lesser_integer(exit_x, exit_y), exit_z), self.limit);
+        enter <= exit
+    }
 }

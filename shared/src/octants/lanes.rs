@@ -1,6 +1,7 @@
 //! The traversal for processors that have AVX2: eight boxes and four triangles at a time, in lanes.
 //!
-//! Without fused multiply-add, which would round otherwise than the scalar twins.
+//! Boxes are tested with fused multiply-add, triangles without it: a box may be met that the scalar twin passes by, hits are
+//! the same bit for bit.
 
 mod node;
 
@@ -12,31 +13,40 @@ use crate::ray::Ray;
 use crate::scene::Scene;
 use crate::triangle_test::TriangleTest;
 use core::arch::x86_64::*;
+use core::hint::select_unpredictable;
 use core::mem::MaybeUninit;
-use node::{Met, Nodes};
+use node::{Group, Nodes};
+use std::sync::LazyLock;
 
 /// Whether this processor has what the functions below need; asked once, then remembered.
 #[inline(always)]
 pub(super) fn are_there() -> bool {
-    std::is_x86_feature_detected!("avx2")
-        && std::is_x86_feature_detected!("bmi1")
-        && std::is_x86_feature_detected!("popcnt")
+    static ARE_THERE: LazyLock<bool> = LazyLock::new(|| {
+        std::is_x86_feature_detected!("avx2")
+            && std::is_x86_feature_detected!("fma")
+            && std::is_x86_feature_detected!("bmi1")
+            && std::is_x86_feature_detected!("bmi2")
+            && std::is_x86_feature_detected!("lzcnt")
+            && std::is_x86_feature_detected!("popcnt")
+    });
+    *ARE_THERE
 }
 
 /// The closest hit.
 ///
 /// # Safety
-/// [`are_there`], and the scene's arrays are valid.
-#[target_feature(enable = "avx2,bmi1,popcnt")]
+/// [`are_there`].
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 pub(super) unsafe fn closest_hit<T: TriangleTest>(scene: &Scene<'_>, ray: &Ray) -> Hit {
     let entered = Entered::by_slabs(scene, ray);
     let mut best = Hit::miss(entered.ray.t_max);
     if entered.inside {
         let test = T::prepare_in(scene, &entered.ray);
         let visit = |leaves: Batch, limit: &mut f32| {
-            // SAFETY: a valid scene's leaves have valid slots.
+            // SAFETY: a batch has slots that there are.
             let crossings = unsafe { test.crossings_at(scene, leaves.slots, leaves.count) };
             let mut nearer = leaves.within(&crossings.t, entered.ray.t_min, *limit) & crossings.crosses;
+            let found = nearer != 0;
             while nearer != 0 {
                 let lane = nearer.trailing_zeros() as usize & 3;
                 nearer &= nearer - 1;
@@ -53,10 +63,9 @@ pub(super) unsafe fn closest_hit<T: TriangleTest>(scene: &Scene<'_>, ray: &Ray) 
                     *limit = t;
                 }
             }
-            true
+            found
         };
-        // SAFETY: the caller's.
-        unsafe { walk(scene, &entered, visit) };
+        walk::<false>(scene, &entered, visit);
     }
     entered.left(ray, best)
 }
@@ -65,25 +74,22 @@ pub(super) unsafe fn closest_hit<T: TriangleTest>(scene: &Scene<'_>, ray: &Ray) 
 ///
 /// # Safety
 /// As of [`closest_hit`].
-#[target_feature(enable = "avx2,bmi1,popcnt")]
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 pub(super) unsafe fn any_hit<T: TriangleTest>(scene: &Scene<'_>, ray: &Ray) -> bool {
     let entered = Entered::by_slabs(scene, ray);
-    let mut found = false;
-    if entered.inside {
-        let test = T::prepare_in(scene, &entered.ray);
-        let visit = |leaves: Batch, limit: &mut f32| {
-            // SAFETY: as above.
-            let crossings = unsafe { test.crossings_at(scene, leaves.slots, leaves.count) };
-            found = leaves.within(&crossings.t, entered.ray.t_min, *limit) & crossings.crosses != 0;
-            !found
-        };
-        // SAFETY: the caller's.
-        unsafe { walk(scene, &entered, visit) };
+    if !entered.inside {
+        return false;
     }
-    found
+    let test = T::prepare_in(scene, &entered.ray);
+    let visit = |leaves: Batch, limit: &mut f32| {
+        // SAFETY: as above.
+        let crossings = unsafe { test.crossings_at(scene, leaves.slots, leaves.count) };
+        leaves.within(&crossings.t, entered.ray.t_min, *limit) & crossings.crosses != 0
+    };
+    walk::<true>(scene, &entered, visit)
 }
 
-/// Up to four triangles of a node's leaves.
+/// Up to four triangles of a node's leaves, that there are.
 struct Batch {
     /// Their slots; beyond `count` that of the first.
     slots: [u32; 4],
@@ -95,18 +101,15 @@ impl Batch {
     /// Takes triangles of a node out of the bits of those that remain, of which there must be one.
     #[inline(always)]
     fn next(triangles: &mut u32, first: u32) -> Self {
-        let nearest = triangles.trailing_zeros();
+        let nearest = first + triangles.trailing_zeros();
         let mut batch = Batch {
-            slots: [first + nearest; 4],
-            count: 1,
+            slots: [nearest; 4],
+            count: triangles.count_ones().min(4),
         };
         *triangles &= *triangles - 1;
         for slot in &mut batch.slots[1..] {
-            let is_there = *triangles != 0;
-            let place = if is_there { triangles.trailing_zeros() } else { nearest };
-            *slot = first + place;
-            *triangles &= triangles.wrapping_sub(u32::from(is_there));
-            batch.count += u32::from(is_there);
+            *slot = select_unpredictable(*triangles == 0, nearest, first.wrapping_add(triangles.trailing_zeros()));
+            *triangles &= triangles.wrapping_sub(1);
         }
         batch
     }
@@ -124,67 +127,76 @@ impl Batch {
     }
 }
 
-/// A level of the tree whose children were not all visited.
-#[derive(Clone, Copy)]
-struct Level {
-    /// Where the ray enters the children's boxes, slot by slot.
-    enters: __m256,
-    /// Index of the first inner child.
-    base: u32,
-    /// The children that remain, see [`super::Walk`].
-    group: u32,
-}
+/// Entries of the stack: one for every level that has children, and two beside.
+const DEPTH: usize = MAX_LEVEL as usize + 2;
 
-/// Goes from node to node, front to back, as [`super::Walk`] does; `visit` gets the leaves, moves the limit of `t`, and says
-/// whether to go on.
+/// Goes from node to node, front to back, as [`super::Walk`] does; `visit` gets leaves, returns whether it has found
+/// anything, and may move the limit of `t`. Whoever looks for the closest hit goes on then, with `ANY` that is all.
 ///
-/// What lies behind a limit that has moved meanwhile is not visited: the boxes are wide enough that no triangle in one is
-/// hit before the ray enters it.
+/// What lies behind a limit that has moved is not visited: the boxes are wide enough that no triangle in one is hit before
+/// the ray enters it.
 ///
-/// # Safety
-/// As of [`closest_hit`].
-#[inline(always)]
-unsafe fn walk(scene: &Scene<'_>, entered: &Entered, mut visit: impl FnMut(Batch, &mut f32) -> bool) {
+/// # Panics
+/// Where a link of the scene leads nowhere.
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+#[inline]
+fn walk<const ANY: bool>(scene: &Scene<'_>, entered: &Entered, mut visit: impl FnMut(Batch, &mut f32) -> bool) -> bool {
     let mut limit = entered.ray.t_max;
-    // SAFETY: the caller's, here and below.
-    let nodes = unsafe { Nodes::new(scene.nodes, &entered.ray) };
-    let mut stack = [MaybeUninit::<Level>::uninit(); MAX_LEVEL as usize + 1];
-    let mut waiting = 0;
+    let nodes = Nodes::new(scene.nodes, &entered.ray);
+    // Groups of which children remain, above an empty one. Where the ray enters the children is of use once the limit moves.
+    let mut stack = [MaybeUninit::<Group>::uninit(); DEPTH];
+    stack[0] = MaybeUninit::new(Group::EMPTY);
+    let mut enters = [MaybeUninit::<__m256>::uninit(); DEPTH];
+    let mut waiting = 1;
+    let count = scene.triangles.len() / 3;
     let mut node = 0;
     loop {
-        // SAFETY: links of a valid scene lead to nodes.
-        let met: Met = unsafe { nodes.meet(node, limit) };
-        let mut enters = met.enters;
-        let (mut base, mut group) = (met.base, met.group);
-        if group & 0xff != 0 {
-            // On its way while the leaves are looked at.
-            nodes.prefetch(base + nodes.place(group));
-        }
+        let met = nodes.meet(node, _mm256_set1_ps(limit));
+        let mut group = met.group;
         if met.leaves != 0 {
-            // SAFETY: it is the node of before.
-            let mut triangles = unsafe { nodes.triangles(node, met.leaves) };
+            if !group.is_empty() {
+                // On its way while the leaves are looked at.
+                nodes.prefetch(nodes.front(group));
+            }
+            let (first, mut triangles) = nodes.triangles(&met);
+            let end = first as usize + (u32::BITS - triangles.leading_zeros()) as usize;
+            assert!(end <= count, "there is no such triangle");
+            let mut found = false;
             while triangles != 0 {
-                if !visit(Batch::next(&mut triangles, met.first), &mut limit) {
-                    return;
+                found |= visit(Batch::next(&mut triangles, first), &mut limit);
+                if ANY && found {
+                    return true;
                 }
             }
-        }
-        while group & 0xff == 0 {
-            if waiting == 0 {
-                return;
+            if found {
+                let before = |enters| nodes.before(enters, _mm256_set1_ps(limit));
+                group = group.within(before(met.enters));
+                let mut kept = 1;
+                for level in 1..waiting {
+                    // SAFETY: below `waiting` all were written.
+                    let (entered, group) = unsafe { (enters[level].assume_init(), stack[level].assume_init()) };
+                    let remains = group.within(before(entered));
+                    stack[kept] = MaybeUninit::new(remains);
+                    enters[kept] = MaybeUninit::new(entered);
+                    kept += usize::from(!remains.is_empty());
+                }
+                waiting = kept;
             }
-            waiting -= 1;
-            // SAFETY: what waits was written.
-            let level = unsafe { stack[waiting].assume_init() };
-            (enters, base) = (level.enters, level.base);
-            // SAFETY: the caller's.
-            group = level.group & unsafe { nodes.before(enters, limit) };
         }
-        node = base + nodes.place(group);
-        group &= group - 1;
-        if group & 0xff != 0 {
-            stack[waiting] = MaybeUninit::new(Level { enters, base, group });
-            waiting += 1;
+        if !ANY {
+            enters[waiting] = MaybeUninit::new(met.enters);
         }
+        // SAFETY: as above.
+        let top = unsafe { stack[waiting - 1].assume_init() };
+        // Without a branch: half of them would be foreseen wrongly.
+        waiting -= usize::from(group.is_empty());
+        group = group.or(top);
+        if waiting == 0 {
+            return false;
+        }
+        node = nodes.front(group);
+        let rest = group.rest();
+        stack[waiting] = MaybeUninit::new(rest);
+        waiting += usize::from(!rest.is_empty());
     }
 }

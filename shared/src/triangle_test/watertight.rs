@@ -33,6 +33,7 @@ impl TriangleTest for Watertight {
     #[inline]
     fn prepare(ray: &PreparedRay) -> Self {
         let size = ray.direction.abs();
+        #[cfg(target_arch = "spirv")]
         let axis = if (size.x >= size.y) & (size.x >= size.z) {
             0
         } else if size.y >= size.z {
@@ -40,10 +41,13 @@ impl TriangleTest for Watertight {
         } else {
             2
         };
-        let direction = rotated(ray.direction, axis);
+        // A sum of comparisons is no branch, which no processor would foresee.
+        #[cfg(not(target_arch = "spirv"))]
+        let axis = u32::from((size.x < size.y) | (size.x < size.z)) * (1 + u32::from(size.y < size.z));
+        let direction = turned(ray.direction, axis);
         let reciprocal = 1.0 / direction.z;
         Watertight {
-            origin: rotated(ray.origin, axis),
+            origin: turned(ray.origin, axis),
             axis,
             shear: Vec3::new(direction.x * reciprocal, direction.y * reciprocal, reciprocal),
         }
@@ -91,6 +95,22 @@ impl Watertight {
             multiply_subtract(self.shear.y, p.z, p.y),
             p.z * self.shear.z,
         )
+    }
+}
+
+/// [`rotated`] where the axis has not been chosen before.
+#[inline(always)]
+fn turned(v: Vec3, axis: u32) -> Vec3 {
+    #[cfg(target_arch = "spirv")]
+    {
+        rotated(v, axis)
+    }
+    // Choices would become branches.
+    #[cfg(not(target_arch = "spirv"))]
+    {
+        let cycle = [v.x, v.y, v.z, v.x, v.y];
+        let axis = axis as usize;
+        Vec3::new(cycle[axis + 1], cycle[axis + 2], cycle[axis])
     }
 }
 

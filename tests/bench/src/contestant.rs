@@ -7,7 +7,7 @@ use oktant_shared::ray::Ray;
 /// A tracer with its structure over a mesh.
 ///
 /// Each gets the same vertices, triangles and rays, and writes a hit or a byte a ray into the same memory.
-pub trait Contestant: Sync {
+pub trait Contestant: Send + Sync {
     /// Closest hits, the triangle by its place in the mesh; `t` and `triangle` count.
     fn closest(&self, rays: &[Ray], hits: &mut [Hit]);
 
@@ -24,9 +24,13 @@ pub struct Entry {
     pub name: &'static str,
     /// Whether it is ours, and must not miss.
     pub is_ours: bool,
-    /// Builds it with the threads of rayon's current pool; what does not build on rayon is given their number.
-    pub build: fn(&Mesh, usize) -> Result<Box<dyn Contestant>, Failure>,
+    /// Builds it.
+    pub build: Build,
 }
+
+/// Builds a contestant from vertices and triangles that are its own to keep, with the threads of rayon's current pool; what
+/// does not build on rayon is given their number.
+pub type Build = fn(Mesh, usize) -> Result<Box<dyn Contestant>, Failure>;
 
 /// Why a contestant could not be built.
 #[derive(Debug, thiserror::Error)]

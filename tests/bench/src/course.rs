@@ -4,7 +4,7 @@ use oktant::backend::Query;
 use oktant::bench::Truth;
 use oktant::mesh::Mesh;
 use oktant::oracle::Oracle;
-use oktant::ray_sets::{SetKind, outer};
+use oktant::ray_sets::{RaySet, SetKind, fitted, outer};
 use oktant_shared::ray::Ray;
 
 /// What is traced.
@@ -19,7 +19,7 @@ pub struct Course {
     pub sets: Vec<Set>,
 }
 
-/// Rays of one kind from all three views, tile by tile.
+/// Rays of one kind from all views.
 pub struct Set {
     /// What they are for.
     pub kind: SetKind,
@@ -30,15 +30,24 @@ pub struct Set {
 }
 
 impl Course {
-    /// The sets of [`outer`] for pictures of that size.
-    pub fn new(name: String, mesh: Mesh, size: [u32; 2]) -> Self {
+    /// The sets of [`outer`] for pictures of that size, tile by tile, as caches of a CPU like it.
+    pub fn outer(name: String, mesh: Mesh, size: [u32; 2]) -> Self {
+        Self::new(name, mesh, |mesh, oracle| outer(mesh, oracle, size.into()).into())
+    }
+
+    /// The sets of [`fitted`] for a picture of that size, row by row, as a GPU gets them.
+    pub fn fitted(name: String, mesh: Mesh, size: [u32; 2]) -> Self {
+        Self::new(name, mesh, |mesh, oracle| vec![fitted(mesh, oracle, size.into())])
+    }
+
+    fn new(name: String, mesh: Mesh, views: impl Fn(&Mesh, &Oracle) -> Vec<[RaySet; 4]>) -> Self {
         let mesh = Mesh {
             positions: mesh.positions,
             triangles: mesh.triangles,
             ..Mesh::default()
         };
         let oracle = Oracle::new(&mesh);
-        let views = outer(&mesh, &oracle, glam::UVec2::from(size));
+        let views = views(&mesh, &oracle);
         let sets = SetKind::ALL.map(|kind| {
             let sets = views.iter().flatten().filter(|set| set.kind == kind);
             let rays: Vec<Ray> = sets.flat_map(|set| set.rays.iter().copied()).collect();
@@ -53,6 +62,18 @@ impl Course {
             mesh,
             oracle,
             sets: sets.into_iter().filter(|set| !set.rays.is_empty()).collect(),
+        }
+    }
+
+    /// The mesh for someone to keep.
+    pub fn own_mesh(&self) -> Mesh {
+        // With room for one vertex more, which some libraries want.
+        let mut positions = Vec::with_capacity(self.mesh.positions.len() + 1);
+        positions.extend_from_slice(&self.mesh.positions);
+        Mesh {
+            positions,
+            triangles: self.mesh.triangles.clone(),
+            ..Mesh::default()
         }
     }
 }

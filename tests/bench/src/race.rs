@@ -9,8 +9,8 @@ use oktant::spread::Spread;
 use oktant_shared::hit::Hit;
 use std::time::Instant;
 
-/// Numbers of threads.
-pub const THREADS: [usize; 2] = [1, 2];
+/// Numbers of threads that times are taken with.
+const THREADS: [usize; 2] = [1, 2];
 
 /// Why nothing was measured.
 #[derive(Debug, thiserror::Error)]
@@ -55,7 +55,7 @@ pub fn race(course: &Course, entries: &[Entry], repeats: usize) -> Result<Course
     };
     let mut runners = Vec::new();
     for entry in entries {
-        let built = (entry.build)(&course.mesh, rayon::current_num_threads())?;
+        let built = (entry.build)(course.own_mesh(), rayon::current_num_threads())?;
         let judge = |set| judge(course, set, &*built, &mut memory);
         runners.push(Runner {
             entry,
@@ -84,6 +84,9 @@ pub fn race(course: &Course, entries: &[Entry], repeats: usize) -> Result<Course
     Ok(CourseReport {
         name: course.name.clone(),
         triangles: course.mesh.triangles.len(),
+        conditions: THREADS
+            .map(|threads| format!("{threads} thread{}", if threads == 1 { "" } else { "s" }))
+            .into(),
         contestants: reports.map(|(runner, builds)| report(course, runner, builds)).collect(),
     })
 }
@@ -95,10 +98,14 @@ fn builds(course: &Course, entries: &[Entry], repeats: usize) -> Result<Vec<[Vec
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
         for _ in 0..repeats {
             for (entry, times) in entries.iter().zip(&mut times) {
-                let start = Instant::now();
-                let built = pool.install(|| (entry.build)(&course.mesh, threads).map(|_| ()));
-                times[place].push(start.elapsed().as_secs_f64() * 1e3);
+                let mesh = course.own_mesh();
+                let (built, time) = pool.install(|| {
+                    let start = Instant::now();
+                    let built = (entry.build)(mesh, threads);
+                    (built, start.elapsed())
+                });
                 built?;
+                times[place].push(time.as_secs_f64() * 1e3);
             }
         }
     }
@@ -142,14 +149,16 @@ fn report(course: &Course, runner: Runner<'_>, builds: [Vec<f64>; 2]) -> Contest
     ContestantReport {
         name: runner.entry.name,
         is_ours: runner.entry.is_ours,
-        build_milliseconds: builds.map(Spread::new),
+        twin_of: None,
+        build_milliseconds: builds.map(Spread::new).into(),
         bytes_per_triangle: bytes.map(|bytes| bytes as f64 / course.mesh.triangles.len() as f64),
         sets: sets
             .map(|(place, (set, judgement))| SetReport {
                 set: set.kind.name(),
                 rays: set.rays.len(),
                 mrays_per_second: [0, 1]
-                    .map(|threads| Spread::of_speeds(set.rays.len(), &runner.times[threads][place])),
+                    .map(|threads| Spread::of_speeds(set.rays.len(), &runner.times[threads][place]))
+                    .into(),
                 judgement,
             })
             .collect(),

@@ -2,6 +2,7 @@
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use oktant::aov::Aov;
+use oktant::grid::GridOptions;
 use oktant::octree::OctreeOptions;
 use oktant::picture::{DEFAULT_SIZE, LARGEST_PICTURE, LARGEST_SIDE};
 use oktant::tree::BuildPreset;
@@ -68,6 +69,31 @@ pub fn octree(text: &str) -> Result<Octree, String> {
         }
     }
     Ok(Octree(options))
+}
+
+/// Limits of the grid as given; what is not given keeps its default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Grid(pub GridOptions);
+
+pub fn grid(text: &str) -> Result<Grid, String> {
+    let mut options = GridOptions::default();
+    for part in text.split(',').filter(|part| !part.trim().is_empty()) {
+        let wanted = "give any of density=0.01..100 and budget=1..256, separated by commas";
+        let (name, value) = part.split_once('=').ok_or(wanted)?;
+        let value = value.trim();
+        match name.trim() {
+            "density" => options.density = value.parse().map_err(|_| wanted)?,
+            "budget" => options.budget = value.parse().map_err(|_| wanted)?,
+            _ => return Err(wanted.into()),
+        }
+    }
+    if !(0.01..=100.0).contains(&options.density) {
+        return Err("density is 0.01 to 100".into());
+    }
+    if !(1..=256).contains(&options.budget) {
+        return Err("budget is 1 to 256".into());
+    }
+    Ok(Grid(options))
 }
 
 macro_rules! names {
@@ -160,6 +186,24 @@ mod tests {
         assert_eq!(aovs("rays, depth,rays").unwrap().0, [Aov::Depth, Aov::Rays]);
         assert_eq!(aovs("all").unwrap().0, Aov::ALL);
         assert!(aovs("colour").unwrap_err().contains("barycentrics"));
+    }
+
+    #[test]
+    fn grid_limits() {
+        assert_eq!(grid("").unwrap().0, GridOptions::default());
+        let options = grid("density=0.5, budget=8").unwrap().0;
+        assert_eq!((options.density, options.budget), (0.5, 8));
+        for bad in [
+            "density",
+            "density=0",
+            "density=NaN",
+            "density=101",
+            "budget=0",
+            "budget=257",
+            "leaf=3",
+        ] {
+            assert!(grid(bad).is_err(), "{bad}");
+        }
     }
 
     #[test]

@@ -8,19 +8,17 @@ use oktant_shared::traversal::Traversal;
 use oktant_shared::triangle_test::Watertight;
 use rayon::prelude::*;
 
-/// The closest hits where every face of every box is moved inwards by a step of its node's raster, as if corners had been
-/// rounded to the nearest step or towards the box's middle; with ids.
+/// The closest hits where every face of every box is moved inwards by a step, as if corners had been
+/// rounded to the nearest one or towards the box's middle; with ids.
 ///
 /// The scene is one of [`oktant_shared::parts::TraversalKind::Octants`].
 pub fn closest_hits(scene: &Scene, rays: &[Ray]) -> Vec<Hit> {
     let mut nodes = scene.nodes.clone();
     for node in nodes.chunks_exact_mut(NODE_VECTORS as usize) {
-        for faces in &mut node[2..] {
-            let mut words = faces.to_array();
-            for (word, inwards) in words.iter_mut().zip([1, 1, -1, -1]) {
-                *word = moved(*word, inwards);
-            }
-            *faces = words.into();
+        // Low faces and high ones in turn.
+        for (at, faces) in node[2..].iter_mut().enumerate() {
+            let inwards = if at % 2 == 0 { 1 } else { -1 };
+            *faces = faces.to_array().map(|word| moved(word, inwards)).into();
         }
     }
     let view = oktant_shared::scene::Scene {
@@ -31,7 +29,8 @@ pub fn closest_hits(scene: &Scene, rays: &[Ray]) -> Vec<Hit> {
     rays.par_iter().map(closest).collect()
 }
 
-/// Four faces, a byte each.
-fn moved(word: u32, by: i8) -> u32 {
-    u32::from_le_bytes(word.to_le_bytes().map(|face| face.saturating_add_signed(by)))
+/// Two faces, each the upper half of an f32 that is not negative: the next number has the next bits.
+fn moved(word: u32, by: i16) -> u32 {
+    let half = |bits: u32| u32::from((bits as u16).saturating_add_signed(by));
+    half(word) | half(word >> 16) << 16
 }

@@ -4,7 +4,7 @@ use crate::octants::{NODE_VECTORS, toward};
 use crate::ray::PreparedRay;
 use crate::slabs::Slabs;
 use core::arch::x86_64::*;
-use glam::UVec4;
+use glam::{UVec4, Vec3};
 
 /// [`toward`] for every octant and every set of slots.
 static TOWARD: [[u8; 256]; 8] = {
@@ -21,145 +21,231 @@ static TOWARD: [[u8; 256]; 8] = {
     all
 };
 
-/// The nodes as a ray sees them.
+/// For every octant where the words of eight lanes come from, lane `slot XOR octant`: the two numbers of a word as
+/// [`crate::arithmetic::halves`] makes them.
+static HALVES: [[u8; 32]; 8] = {
+    let mut all = [[ZERO; 32]; 8];
+    let mut place = 0;
+    while place < 8 * 8 * 4 {
+        let (octant, slot, byte) = (place / 32, place / 4 % 8, place % 4);
+        let first = if slot % 2 == 0 { 2 } else { 0 };
+        if byte >= first {
+            all[octant][4 * (slot ^ octant) + byte] = (4 * (slot / 2) + byte - first) as u8;
+        }
+        place += 1;
+    }
+    all
+};
+
+/// The same of a byte of each slot.
+static BYTES: [[u8; 32]; 8] = {
+    let mut all = [[ZERO; 32]; 8];
+    let mut place = 0;
+    while place < 8 * 8 {
+        let (octant, slot) = (place / 8, place % 8);
+        all[octant][4 * (slot ^ octant)] = slot as u8;
+        place += 1;
+    }
+    all
+};
+
+/// Makes a byte zero.
+const ZERO: u8 = 0x80;
+
+/// The nodes as a ray sees them. Lanes are children, lane `slot XOR octant`.
 pub(super) struct Nodes<'a> {
     nodes: &'a [UVec4],
+    /// How many there are.
+    count: u32,
     t_min: __m256,
-    /// Of the direction, and minus the origin times it (see [`Slabs`]); the last lanes are zero.
-    reciprocal: __m128,
-    offset: __m128,
+    /// Of the direction, see [`Slabs`]; the bits of a power of two are to be added.
+    reciprocal: [__m256; 3],
+    unscaled: [__m256i; 3],
+    offset: [__m256; 3],
     octant: u32,
     /// Row of [`TOWARD`].
     toward: &'static [u8; 256],
     /// Bytes before the nearer and the farther faces of an axis.
     near: [usize; 3],
     far: [usize; 3],
+    /// Row of [`HALVES`].
+    halves: __m256i,
+    /// Row of [`BYTES`].
+    bytes: &'static [u8; 32],
 }
 
 /// What a ray meets of a node.
 pub(super) struct Met {
     /// Where it enters the children's boxes.
     pub enters: __m256,
-    /// Leaves that it meets, by slot.
+    /// Leaves that it meets.
     pub leaves: u32,
-    /// Inner children that it meets, bit `slot XOR octant`; from bit 8 the slots with inner nodes.
-    pub group: u32,
-    /// Index of the first inner child.
-    pub base: u32,
-    /// Slot of the first triangle.
-    pub first: u32,
+    /// What it meets of the others.
+    pub group: Group,
+    /// First byte of the node.
+    at: *const u8,
+}
+
+/// Children of a node that are nodes.
+#[derive(Clone, Copy)]
+pub(super) struct Group(u64);
+
+impl Group {
+    /// Of no node.
+    pub const EMPTY: Group = Group(0);
+
+    /// Those that remain from bit 0, bit `slot XOR octant`; from bit 8 all slots with inner nodes.
+    #[inline(always)]
+    fn new(remain: u32, inner: u32, first: u32) -> Self {
+        Group(u64::from(remain | inner << 8) | u64::from(first) << 32)
+    }
+
+    /// Whether none remains.
+    #[inline(always)]
+    pub fn is_empty(self) -> bool {
+        self.0 & 0xff == 0
+    }
+
+    /// Without the front one, of which there must be one.
+    #[inline(always)]
+    pub fn rest(self) -> Self {
+        Group(self.0 & self.0.wrapping_sub(1))
+    }
+
+    /// Of those that remain the ones that are in a set.
+    #[inline(always)]
+    pub fn within(self, set: u32) -> Self {
+        Group(self.0 & (u64::from(set) | !0xff))
+    }
+
+    /// This one, or another where it is empty: a choice that no processor foresees.
+    #[inline(always)]
+    pub fn or(self, other: Group) -> Self {
+        Group(core::hint::select_unpredictable(self.is_empty(), other.0, self.0))
+    }
 }
 
 impl<'a> Nodes<'a> {
-    /// # Safety
-    /// The processor has AVX2, here and below.
-    #[inline(always)]
-    pub unsafe fn new(nodes: &'a [UVec4], ray: &PreparedRay) -> Self {
+    /// For a ray.
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+    #[inline]
+    pub fn new(nodes: &'a [UVec4], ray: &PreparedRay) -> Self {
         let slabs = Slabs::new(ray);
-        let (reciprocal, offset) = (slabs.reciprocal, slabs.offset);
-        let near = [0, 1, 2].map(|axis| 32 + 16 * axis + 8 * (slabs.octant as usize >> axis & 1));
-        // SAFETY: the caller's.
-        unsafe {
-            Nodes {
-                nodes,
-                t_min: _mm256_set1_ps(ray.t_min),
-                reciprocal: _mm_setr_ps(reciprocal.x, reciprocal.y, reciprocal.z, 0.0),
-                offset: _mm_setr_ps(offset.x, offset.y, offset.z, 0.0),
-                octant: slabs.octant,
-                toward: &TOWARD[slabs.octant as usize & 7],
-                near,
-                far: near.map(|at| at ^ 8),
-            }
+        let octant = slabs.octant as usize & 7;
+        let near = [0, 1, 2].map(|axis| 32 + 32 * axis + 16 * (octant >> axis & 1));
+        let lanes = |v: Vec3| [_mm256_set1_ps(v.x), _mm256_set1_ps(v.y), _mm256_set1_ps(v.z)];
+        let reciprocal = lanes(slabs.reciprocal);
+        let one = _mm256_set1_epi32(127 << 23);
+        Nodes {
+            nodes,
+            count: nodes.len() as u32 / NODE_VECTORS,
+            t_min: _mm256_set1_ps(ray.t_min),
+            reciprocal,
+            unscaled: reciprocal.map(|lanes| _mm256_sub_epi32(_mm256_castps_si256(lanes), one)),
+            offset: lanes(slabs.offset),
+            octant: slabs.octant,
+            toward: &TOWARD[octant],
+            near,
+            far: near.map(|at| at ^ 16),
+            halves: in_lanes(&HALVES[octant]),
+            bytes: &BYTES[octant],
         }
     }
 
     /// First byte of a node.
     #[inline(always)]
     fn at(&self, node: u32) -> *const u8 {
-        self.nodes.as_ptr().wrapping_add((node * NODE_VECTORS) as usize).cast()
+        self.nodes
+            .as_ptr()
+            .wrapping_add(node.wrapping_mul(NODE_VECTORS) as usize)
+            .cast()
     }
 
-    /// The lanes of [`super::super::boxes::met`], operation by operation the same.
+    /// What is met of a node between `t_min` and `limit`: as [`super::super::boxes::met`] finds, but that products and sums
+    /// are rounded once. Boxes are wide enough for either.
     ///
-    /// # Safety
-    /// There is such a node.
-    #[inline(always)]
-    pub unsafe fn meet(&self, node: u32, limit: f32) -> Met {
-        let node = self.at(node);
-        // SAFETY: nodes are 80 bytes, of which all that is read here lies in the first 80 and can be read from anywhere.
+    /// # Panics
+    /// If there is no such node.
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+    #[inline]
+    pub fn meet(&self, node: u32, limit: __m256) -> Met {
+        assert!(node < self.count, "there is no such node");
+        let at = self.at(node);
+        // SAFETY: nodes are 128 bytes, of which all that is read here is some and can be read from anywhere.
         unsafe {
-            let words = node.cast::<u32>();
-            let frame = words.add(3).read();
-            let exponents = _mm_cvtepu8_epi32(_mm_cvtsi32_si128(frame as i32));
-            let step = _mm_mul_ps(_mm_castsi128_ps(_mm_slli_epi32::<23>(exponents)), self.reciprocal);
-            let start = _mm_add_ps(_mm_mul_ps(_mm_loadu_ps(words.cast()), self.reciprocal), self.offset);
-            let lane = |lanes, axis| _mm256_permutevar8x32_ps(_mm256_castps128_ps256(lanes), _mm256_set1_epi32(axis));
-            let steps = [lane(step, 0), lane(step, 1), lane(step, 2)];
-            let starts = [lane(start, 0), lane(start, 1), lane(start, 2)];
-            let crossed = |at: usize, axis: usize| {
-                let faces = _mm256_cvtepu8_epi32(_mm_loadl_epi64(node.add(at).cast()));
-                _mm256_add_ps(_mm256_mul_ps(_mm256_cvtepi32_ps(faces), steps[axis]), starts[axis])
+            let words = at.cast::<f32>();
+            let frame = _mm256_castps_si256(_mm256_broadcast_ss(&*words.add(3)));
+            let crossed = |axis: usize| {
+                // The axis' exponent; added to that of the reciprocal it makes their product.
+                let exponent = _mm256_shuffle_epi8(frame, _mm256_set1_epi32((axis as i32 * 0x100_0000) | 0x80_8080));
+                let step = _mm256_add_epi32(_mm256_srli_epi32::<1>(exponent), self.unscaled[axis]);
+                let start = _mm256_fmadd_ps(
+                    _mm256_broadcast_ss(&*words.add(axis)),
+                    self.reciprocal[axis],
+                    self.offset[axis],
+                );
+                let crossed = |faces: usize| {
+                    let faces = _mm256_broadcastsi128_si256(_mm_loadu_si128(at.add(faces).cast()));
+                    let faces = _mm256_castsi256_ps(_mm256_shuffle_epi8(faces, self.halves));
+                    _mm256_fmadd_ps(faces, _mm256_castsi256_ps(step), start)
+                };
+                (crossed(self.near[axis]), crossed(self.far[axis]))
             };
-            // These prefer the second operand where numbers are equal or cannot be ordered, as `greater` and `lesser` do.
-            let enters = _mm256_max_ps(
-                _mm256_max_ps(crossed(self.near[0], 0), crossed(self.near[1], 1)),
-                _mm256_max_ps(crossed(self.near[2], 2), self.t_min),
-            );
-            let exits = _mm256_min_ps(
-                _mm256_min_ps(crossed(self.far[0], 0), crossed(self.far[1], 1)),
-                _mm256_min_ps(crossed(self.far[2], 2), _mm256_set1_ps(limit)),
-            );
+            let (x, y, z) = (crossed(0), crossed(1), crossed(2));
+            let enters = _mm256_max_ps(_mm256_max_ps(x.0, y.0), _mm256_max_ps(z.0, self.t_min));
+            let exits = _mm256_min_ps(_mm256_min_ps(x.1, y.1), _mm256_min_ps(z.1, limit));
             let hits = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enters, exits)) as u32;
-            let inner = frame >> 24;
+            let inner = at.add(15).read();
+            let turned = u32::from(self.toward[usize::from(inner)]);
             Met {
                 enters,
-                leaves: hits & !inner,
-                group: self.toward(hits & inner) | inner << 8,
-                base: words.add(4).read(),
-                first: words.add(5).read(),
+                leaves: hits & !turned,
+                group: Group::new(hits & turned, u32::from(inner), words.add(4).cast::<u32>().read()),
+                at,
             }
         }
     }
 
-    /// Bit for each triangle of these leaves of a node, by its place among the node's.
-    ///
-    /// # Safety
-    /// There is such a node.
-    #[inline(always)]
-    pub unsafe fn triangles(&self, node: u32, leaves: u32) -> u32 {
-        // SAFETY: as above.
+    /// The triangles of the leaves that are met of a node: the slot of the first of the node's, and a bit for each, by its
+    /// place among the node's.
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+    #[inline]
+    pub fn triangles(&self, met: &Met) -> (u32, u32) {
+        // SAFETY: it is a node that was met.
         unsafe {
-            let bytes = _mm256_cvtepu8_epi32(_mm_loadl_epi64(self.at(node).add(24).cast()));
+            let bytes = _mm_loadl_epi64(met.at.add(24).cast());
+            let bytes = _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(bytes), in_lanes(self.bytes));
             let one = _mm256_set1_epi32(1);
             let counted = _mm256_sub_epi32(_mm256_sllv_epi32(one, _mm256_srli_epi32::<5>(bytes)), one);
             let placed = _mm256_sllv_epi32(counted, _mm256_and_si256(bytes, _mm256_set1_epi32(31)));
             let bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
-            let is_met = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(leaves as i32), bits), bits);
+            let is_met = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(met.leaves as i32), bits), bits);
             let eight = _mm256_and_si256(placed, is_met);
             let four = _mm_or_si128(_mm256_castsi256_si128(eight), _mm256_extracti128_si256::<1>(eight));
             let two = _mm_or_si128(four, _mm_shuffle_epi32::<0b01_00_11_10>(four));
             let all = _mm_or_si128(two, _mm_shuffle_epi32::<0b10_11_00_01>(two));
-            _mm_cvtsi128_si32(all) as u32
+            (
+                met.at.add(20).cast::<u32>().read_unaligned(),
+                _mm_cvtsi128_si32(all) as u32,
+            )
         }
     }
 
-    /// The group bits that remain of a level whose boxes are entered at `enters`: children not beyond `limit`, and all slots
-    /// with inner nodes.
-    ///
-    /// # Safety
-    /// See [`Nodes::new`].
-    #[inline(always)]
-    pub unsafe fn before(&self, enters: __m256, limit: f32) -> u32 {
-        // SAFETY: the caller's.
-        let slots = unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enters, _mm256_set1_ps(limit))) };
-        self.toward(slots as u32) | !0xff
+    /// Children whose boxes, entered at `enters`, are not entered beyond `limit`.
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+    #[inline]
+    pub fn before(&self, enters: __m256, limit: __m256) -> u32 {
+        _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enters, limit)) as u32
     }
 
-    /// Place of a group's front child among the inner ones.
-    #[inline(always)]
-    pub fn place(&self, group: u32) -> u32 {
+    /// A group's front child.
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+    #[inline]
+    pub fn front(&self, group: Group) -> u32 {
+        let group = group.0;
         let slot = (group.trailing_zeros() ^ self.octant) & 7;
-        ((group >> 8) & ((1 << slot) - 1)).count_ones()
+        let before = (group >> 8) as u32 & ((1 << slot) - 1);
+        ((group >> 32) as u32).wrapping_add(before.count_ones())
     }
 
     /// Has a node brought from memory.
@@ -172,9 +258,12 @@ impl<'a> Nodes<'a> {
             _mm_prefetch::<_MM_HINT_T0>(node.wrapping_add(64).cast());
         }
     }
+}
 
-    #[inline(always)]
-    fn toward(&self, slots: u32) -> u32 {
-        u32::from(self.toward[slots as usize & 0xff])
-    }
+/// Which bytes go where, in a register.
+#[target_feature(enable = "avx2")]
+#[inline]
+fn in_lanes(bytes: &[u8; 32]) -> __m256i {
+    // SAFETY: there are 32 bytes.
+    unsafe { _mm256_loadu_si256(bytes.as_ptr().cast()) }
 }

@@ -99,7 +99,7 @@ impl Contestant for Tree {
     }
 }
 
-fn build(mesh: &Mesh, threads: usize) -> Box<dyn Contestant> {
+fn build(mesh: Mesh, threads: usize) -> Box<dyn Contestant> {
     let shape = |(id, corners): (usize, [[f32; 3]; 3])| {
         let [a, b, c] = corners.map(Point3::from);
         Shape {
@@ -109,7 +109,7 @@ fn build(mesh: &Mesh, threads: usize) -> Box<dyn Contestant> {
             node: 0,
         }
     };
-    let mut shapes: Vec<Shape> = corners(mesh).enumerate().map(shape).collect();
+    let mut shapes: Vec<Shape> = corners(&mesh).enumerate().map(shape).collect();
     let bvh = if threads == 1 {
         Bvh::build(&mut shapes)
     } else {

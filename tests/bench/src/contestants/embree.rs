@@ -1,6 +1,7 @@
 //! Embree 3.13, ray by ray, through the few functions that this takes.
 
 use crate::contestant::{Contestant, Entry, Failure, hit};
+use glam::Vec3;
 use oktant::mesh::Mesh;
 use oktant_shared::hit::Hit;
 use oktant_shared::ray::Ray;
@@ -73,14 +74,16 @@ unsafe extern "C" {
     fn rtcCommitScene(scene: Handle);
     fn rtcNewGeometry(device: Handle, kind: c_int) -> Handle;
     fn rtcReleaseGeometry(geometry: Handle);
-    fn rtcSetNewGeometryBuffer(
+    fn rtcSetSharedGeometryBuffer(
         geometry: Handle,
         kind: c_int,
         slot: u32,
         format: c_int,
+        data: *const c_void,
+        offset: usize,
         stride: usize,
         count: usize,
-    ) -> *mut c_void;
+    );
     fn rtcCommitGeometry(geometry: Handle);
     fn rtcAttachGeometry(scene: Handle, geometry: Handle) -> u32;
     fn rtcIntersect1(scene: Handle, context: *mut Context, ray_hit: *mut RayHit);
@@ -92,8 +95,12 @@ struct Embree {
     scene: Handle,
     /// What Embree has allocated; it holds the address.
     bytes: Box<AtomicIsize>,
+    /// The scene refers to it.
+    _mesh: Mesh,
 }
 
+// SAFETY: handles belong to no thread.
+unsafe impl Send for Embree {}
 // SAFETY: a committed scene may be traced from many threads at once.
 unsafe impl Sync for Embree {}
 
@@ -137,7 +144,7 @@ fn context() -> Context {
 }
 
 impl Embree {
-    fn build(who: &'static str, mesh: &Mesh, threads: usize, flags: c_int) -> Result<Box<dyn Contestant>, Failure> {
+    fn build(who: &'static str, mut mesh: Mesh, threads: usize, flags: c_int) -> Result<Box<dyn Contestant>, Failure> {
         let failed = |reason: String| Failure { who, reason };
         let config = CString::new(format!("threads={threads}")).map_err(|error| failed(error.to_string()))?;
         let bytes = Box::new(AtomicIsize::new(0));
@@ -146,7 +153,9 @@ impl Embree {
         if device.is_null() {
             return Err(failed("there is no device".to_owned()));
         }
-        // SAFETY: as above; all handles are live, and both buffers have the size that is written.
+        // Embree reads 16 bytes of each vertex.
+        mesh.positions.push(Vec3::ZERO);
+        // SAFETY: as above; all handles are live, both buffers have the size that is told, and live as long as the scene.
         let scene = unsafe {
             let user = std::ptr::from_ref(&*bytes).cast_mut().cast();
             rtcSetDeviceMemoryMonitorFunction(device, monitor, user);
@@ -154,21 +163,24 @@ impl Embree {
             rtcSetSceneFlags(scene, flags);
             rtcSetSceneBuildQuality(scene, QUALITY_MEDIUM);
             let geometry = rtcNewGeometry(device, GEOMETRY_TRIANGLE);
-            let vertices = rtcSetNewGeometryBuffer(geometry, BUFFER_VERTEX, 0, FORMAT_FLOAT3, 12, mesh.positions.len());
-            let indices = rtcSetNewGeometryBuffer(geometry, BUFFER_INDEX, 0, FORMAT_UINT3, 12, mesh.triangles.len());
-            if !vertices.is_null() && !indices.is_null() {
-                let positions: *const [f32; 3] = mesh.positions.as_ptr().cast();
-                positions.copy_to_nonoverlapping(vertices.cast(), mesh.positions.len());
-                let triangles: *const [u32; 3] = mesh.triangles.as_ptr();
-                triangles.copy_to_nonoverlapping(indices.cast(), mesh.triangles.len());
-            }
+            let vertices = mesh.positions.as_ptr().cast();
+            let corners = mesh.positions.len() - 1;
+            rtcSetSharedGeometryBuffer(geometry, BUFFER_VERTEX, 0, FORMAT_FLOAT3, vertices, 0, 12, corners);
+            let indices = mesh.triangles.as_ptr().cast();
+            let triangles = mesh.triangles.len();
+            rtcSetSharedGeometryBuffer(geometry, BUFFER_INDEX, 0, FORMAT_UINT3, indices, 0, 12, triangles);
             rtcCommitGeometry(geometry);
             rtcAttachGeometry(scene, geometry);
             rtcReleaseGeometry(geometry);
             rtcCommitScene(scene);
             scene
         };
-        let built = Embree { device, scene, bytes };
+        let built = Embree {
+            device,
+            scene,
+            bytes,
+            _mesh: mesh,
+        };
         // SAFETY: the device is live.
         match unsafe { rtcGetDeviceError(built.device) } {
             0 => Ok(Box::new(built)),

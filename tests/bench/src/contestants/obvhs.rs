@@ -29,16 +29,20 @@ fn peer_ray(ray: &Ray) -> PeerRay {
     PeerRay::new(origin, direction, ray.t_min, ray.t_max)
 }
 
+/// A mesh's triangles as obvhs has them.
+pub fn triangles(mesh: &Mesh) -> Vec<Triangle> {
+    let triangle = |corners: [[f32; 3]; 3]| {
+        let [v0, v1, v2] = corners.map(Vec3A::from);
+        Triangle { v0, v1, v2 }
+    };
+    corners(mesh).map(triangle).collect()
+}
+
 macro_rules! contestant {
     ($bvh:ty, $node:ty, $build:ident) => {
         impl Tree<$bvh> {
-            fn build(mesh: &Mesh, parameters: BvhBuildParams) -> Box<dyn Contestant> {
-                let triangles: Vec<Triangle> = corners(mesh)
-                    .map(|corners| {
-                        let [v0, v1, v2] = corners.map(Vec3A::from);
-                        Triangle { v0, v1, v2 }
-                    })
-                    .collect();
+            fn build(mesh: Mesh, parameters: BvhBuildParams) -> Box<dyn Contestant> {
+                let triangles = triangles(&mesh);
                 let bvh = $build(&triangles, parameters, &mut Duration::default());
                 let order = bvh.primitive_indices.iter();
                 let triangles = order

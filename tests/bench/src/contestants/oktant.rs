@@ -2,6 +2,7 @@
 
 use crate::contestant::{Contestant, Entry, Failure};
 use oktant::mesh::Mesh;
+use oktant::model::Model;
 use oktant::progress::silent;
 use oktant::scene::Scene;
 use oktant::structure::StructureOptions;
@@ -32,12 +33,12 @@ impl Contestant for Oktant {
     }
 }
 
-fn build(who: &'static str, mesh: &Mesh, preset: BuildPreset) -> Result<Box<dyn Contestant>, Failure> {
+fn build(who: &'static str, mesh: Mesh, preset: BuildPreset) -> Result<Box<dyn Contestant>, Failure> {
     let options = StructureOptions {
         preset,
         ..StructureOptions::default()
     };
-    let scene = Scene::new(mesh, &options, &silent).map_err(|error| Failure {
+    let scene = Scene::of_model(Model::of_mesh(mesh), &options, &silent).map_err(|error| Failure {
         who,
         reason: error.to_string(),
     })?;

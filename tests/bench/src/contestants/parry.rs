@@ -81,27 +81,27 @@ impl Contestant for Tree {
     }
 }
 
-fn whole(mesh: &Mesh) -> Result<Box<dyn Contestant>, Failure> {
-    let positions = mesh.positions.iter();
+fn whole(mesh: Mesh) -> Result<Box<dyn Contestant>, Failure> {
+    let positions = mesh.positions.into_iter();
     let vertices = positions
         .map(|position| Vector::from_array(position.to_array()))
         .collect();
-    let whole = TriMesh::new(vertices, mesh.triangles.clone()).map_err(|error| Failure {
+    let whole = TriMesh::new(vertices, mesh.triangles).map_err(|error| Failure {
         who: "parry3d trimesh",
         reason: error.to_string(),
     })?;
     Ok(Box::new(Whole(whole)))
 }
 
-fn tree(mesh: &Mesh) -> Box<dyn Contestant> {
+fn tree(mesh: Mesh) -> Box<dyn Contestant> {
     let bounds = |corners: [[f32; 3]; 3]| {
         let [a, b, c] = corners.map(Vector::from_array);
         Aabb::new(a.min(b).min(c), a.max(b).max(c))
     };
-    let boxes: Vec<Aabb> = corners(mesh).map(bounds).collect();
+    let boxes: Vec<Aabb> = corners(&mesh).map(bounds).collect();
     Box::new(Tree {
         bvh: Bvh::from_leaves(BvhBuildStrategy::Ploc, &boxes),
-        triangles: corners(mesh).map(Triangle::new).collect(),
+        triangles: corners(&mesh).map(Triangle::new).collect(),
     })
 }
 
