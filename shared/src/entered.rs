@@ -13,7 +13,7 @@ pub struct Entered {
     /// The prepared ray, its origin advanced to shortly before the cube if that is far away.
     pub ray: PreparedRay,
     /// By how much the origin was advanced, in the prepared `t`.
-    advance: f32,
+    pub advance: f32,
     /// Whether the ray meets the cube within its limits.
     pub inside: bool,
 }

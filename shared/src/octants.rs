@@ -11,6 +11,8 @@ use crate::hit::Hit;
 use crate::ray::Ray;
 use crate::scene::Scene;
 use crate::slabs::Slabs;
+#[cfg(target_arch = "x86_64")]
+use crate::traversal;
 use crate::traversal::Traversal;
 use crate::triangle_test::TriangleTest;
 use crate::walk::{self, Along, Some32};
@@ -72,6 +74,26 @@ impl<T: TriangleTest, const LANES: bool> Traversal for Octants<T, LANES> {
             return unsafe { lanes::any_hit::<T>(scene, ray) };
         }
         Along::<Walk, KayKajiya, T>::any_hit(scene, ray)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    fn closest_hits(scene: &Scene<'_>, rays: &[Ray], hits: &mut [Hit]) {
+        if LANES && lanes::are_there() {
+            // SAFETY: as above.
+            unsafe { lanes::closest_hits::<T>(scene, rays, hits) }
+        } else {
+            traversal::closest_hits_in_turn::<Self>(scene, rays, hits);
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    fn any_hits(scene: &Scene<'_>, rays: &[Ray], are_hit: &mut [bool]) {
+        if LANES && lanes::are_there() {
+            // SAFETY: as above.
+            unsafe { lanes::any_hits::<T>(scene, rays, are_hit) }
+        } else {
+            traversal::any_hits_in_turn::<Self>(scene, rays, are_hit);
+        }
     }
 }
 

@@ -22,7 +22,7 @@ pub struct Slabs {
 
 /// Direction components smaller than this count as this: over the cube's diagonal the ray moves sideways by less than its
 /// coordinates resolve.
-const LEAST_SLOPE: f32 = 1.0 / (1_u64 << 60) as f32;
+pub const LEAST_SLOPE: f32 = 1.0 / (1_u64 << 60) as f32;
 
 impl Slabs {
     /// Does the work that is done once for each ray.

@@ -19,6 +19,40 @@ pub trait Traversal {
 
     /// Whether anything lies within the ray's limits.
     fn any_hit(scene: &Scene<'_>, ray: &Ray) -> bool;
+
+    /// [`Traversal::closest_hit`] of each ray; whoever has many gives them at once, for some traversals take less time then.
+    ///
+    /// # Panics
+    /// If there are fewer places for hits than rays.
+    #[cfg(not(target_arch = "spirv"))]
+    fn closest_hits(scene: &Scene<'_>, rays: &[Ray], hits: &mut [Hit]) {
+        closest_hits_in_turn::<Self>(scene, rays, hits);
+    }
+
+    /// [`Traversal::any_hit`] of each ray.
+    ///
+    /// # Panics
+    /// If there are fewer places for answers than rays.
+    #[cfg(not(target_arch = "spirv"))]
+    fn any_hits(scene: &Scene<'_>, rays: &[Ray], are_hit: &mut [bool]) {
+        any_hits_in_turn::<Self>(scene, rays, are_hit);
+    }
+}
+
+/// [`Traversal::closest_hits`], one after the other.
+#[cfg(not(target_arch = "spirv"))]
+pub(crate) fn closest_hits_in_turn<V: Traversal + ?Sized>(scene: &Scene<'_>, rays: &[Ray], hits: &mut [Hit]) {
+    for (ray, hit) in rays.iter().zip(&mut hits[..rays.len()]) {
+        *hit = V::closest_hit(scene, ray);
+    }
+}
+
+/// [`Traversal::any_hits`], one after the other.
+#[cfg(not(target_arch = "spirv"))]
+pub(crate) fn any_hits_in_turn<V: Traversal + ?Sized>(scene: &Scene<'_>, rays: &[Ray], are_hit: &mut [bool]) {
+    for (ray, is_hit) in rays.iter().zip(&mut are_hit[..rays.len()]) {
+        *is_hit = V::any_hit(scene, ray);
+    }
 }
 
 /// The combination that oktant renders with.

@@ -5,7 +5,7 @@
 use oktant_shared::hit::Hit;
 use oktant_shared::octants::{NODE_VECTORS, Octants};
 use oktant_shared::parts::TraversalKind;
-use oktant_shared::ray::Ray;
+use oktant_shared::ray::{Ray, T_MAX};
 use oktant_shared::scene::Scene;
 use oktant_shared::traversal::Traversal;
 use oktant_shared::triangle_test::{BaldwinWeber, MollerTrumbore, Plucker, TriangleTest, Watertight};
@@ -16,11 +16,42 @@ use rayon::prelude::*;
 /// Rays of each class on each mesh.
 const RAYS: usize = 20_000;
 
+/// How many rays are given at once where many are: neither even nor a divisor of all.
+const AT_ONCE: usize = 61;
+
+fn bits(hit: Hit) -> [u32; 4] {
+    [hit.t.to_bits(), hit.triangle, hit.u.to_bits(), hit.v.to_bits()]
+}
+
 fn answers<V: Traversal>(scene: &Scene<'_>, rays: &[Ray]) -> Vec<([u32; 4], bool)> {
-    let bits = |hit: Hit| [hit.t.to_bits(), hit.triangle, hit.u.to_bits(), hit.v.to_bits()];
     rays.par_iter()
         .map(|ray| (bits(V::closest_hit(scene, ray)), V::any_hit(scene, ray)))
         .collect()
+}
+
+fn answers_at_once<V: Traversal>(scene: &Scene<'_>, rays: &[Ray]) -> Vec<([u32; 4], bool)> {
+    let chunks = rays.par_chunks(AT_ONCE).map(|rays| {
+        let mut hits = vec![Hit::miss(-1.0); rays.len()];
+        let mut are_hit = vec![false; rays.len()];
+        V::closest_hits(scene, rays, &mut hits);
+        V::any_hits(scene, rays, &mut are_hit);
+        hits.into_iter().map(bits).zip(are_hit).collect::<Vec<_>>()
+    });
+    chunks.flatten().collect()
+}
+
+/// Checks every way of the lanes against the scalar twin, and counts the rays that hit anything.
+fn compare_all<T: TriangleTest>(scene: &Scene<'_>, rays: &[Ray], what: &str) -> usize {
+    let one_by_one = answers::<Octants<T, false>>(scene, rays);
+    for (way, in_lanes) in [
+        ("alone", answers::<Octants<T>>(scene, rays)),
+        ("at once", answers_at_once::<Octants<T>>(scene, rays)),
+    ] {
+        for ((ray, a), b) in rays.iter().zip(&in_lanes).zip(&one_by_one) {
+            assert_eq!(a, b, "{what}, {way}: {ray:?}");
+        }
+    }
+    one_by_one.iter().filter(|answer| answer.1).count()
 }
 
 fn compare<T: TriangleTest>(name: &str) {
@@ -30,14 +61,48 @@ fn compare<T: TriangleTest>(name: &str) {
         for class in RayClass::ALL {
             let mut rays = subject.rays(class, RAYS);
             rays.extend(subject.limited(&rays[..RAYS / 4]));
-            let in_lanes = answers::<Octants<T>>(&scene.view(), &rays);
-            let one_by_one = answers::<Octants<T, false>>(&scene.view(), &rays);
-            for ((ray, a), b) in rays.iter().zip(&in_lanes).zip(&one_by_one) {
-                assert_eq!(a, b, "{name}, {}, class {}: {ray:?}", subject.name, class.name());
-                found += u32::from(a.1);
-            }
+            found += compare_all::<T>(
+                &scene.view(),
+                &rays,
+                &format!("{name}, {}, class {}", subject.name, class.name()),
+            );
         }
         assert!(found > 0, "{}: no ray hits anything", subject.name);
+    }
+}
+
+/// Rays that are prepared in lanes, and such that just are not: they begin ever further away, are long and short, lie in
+/// planes of the axes, and have limits of every kind.
+#[test]
+fn rays_of_all_sizes_are_the_same() {
+    for subject in Subject::all() {
+        let scene = subject.scene(TraversalKind::Octants);
+        let view = scene.view();
+        let size = view.root.size();
+        let aimed = subject.rays(RayClass::ALL[0], 400);
+        let mut rays = Vec::new();
+        for (k, ray) in aimed.iter().enumerate() {
+            let way = ray.direction.normalize_or_zero();
+            let target = ray.at(0.5);
+            for distance in [0.0, 0.5, 2.0, 2.99, 3.0, 3.01, 3.99, 4.0, 4.01, 5.0, 7.0, 1000.0] {
+                for exponent in [-130, -120, -61, -31, -30, -29, 0, 29, 30, 31, 61, 120] {
+                    let mut direction = way * 2.0_f32.powi(exponent);
+                    direction[k % 3] *= [1.0, 0.0, -0.0, 1e-9, 1e-12, 1e-20, 1e-39][k / 3 % 7];
+                    rays.push(Ray {
+                        t_min: [0.0, -1.0, 0.25 * size, f32::NAN, f32::INFINITY][k / 21 % 5 * usize::from(k % 2 == 0)],
+                        t_max: [T_MAX, f32::INFINITY, size * 5.0, -1.0, f32::NAN][k / 7 % 5 * usize::from(k % 4 == 1)],
+                        ..Ray::new(target - way * size * distance, direction)
+                    });
+                }
+            }
+        }
+        let found = compare_all::<Watertight>(&view, &rays, subject.name);
+        assert!(
+            found > rays.len() / 50,
+            "{}: {found} of {} rays hit",
+            subject.name,
+            rays.len()
+        );
     }
 }
 

@@ -146,16 +146,26 @@ impl Backend for Cpu {
 fn cast<V: Traversal>(scene: &Scene, query: Query, rays: &[Ray], hits: &mut [Hit]) {
     let scene = scene.view();
     let rays = rays.par_chunks(RAYS).zip(hits.par_chunks_mut(RAYS));
-    rays.for_each(|(rays, hits)| {
-        for (ray, hit) in rays.iter().zip(hits) {
-            *hit = match query {
-                Query::Closest => scene.identified(V::closest_hit(&scene, ray)),
-                Query::Any if V::any_hit(&scene, ray) => Hit {
-                    triangle: 0,
-                    ..Hit::miss(0.0)
-                },
-                Query::Any => Hit::miss(ray.t_max),
-            };
+    rays.for_each(|(rays, hits)| match query {
+        Query::Closest => {
+            V::closest_hits(&scene, rays, hits);
+            for hit in hits {
+                *hit = scene.identified(*hit);
+            }
+        }
+        Query::Any => {
+            let mut are_hit = [false; RAYS];
+            V::any_hits(&scene, rays, &mut are_hit);
+            for ((ray, hit), is_hit) in rays.iter().zip(hits).zip(are_hit) {
+                *hit = if is_hit {
+                    Hit {
+                        triangle: 0,
+                        ..Hit::miss(0.0)
+                    }
+                } else {
+                    Hit::miss(ray.t_max)
+                };
+            }
         }
     });
 }

@@ -12,7 +12,7 @@ pub trait Contestant: Send + Sync {
     fn closest(&self, rays: &[Ray], hits: &mut [Hit]);
 
     /// Whether rays hit anything: 1 or 0.
-    fn any(&self, rays: &[Ray], found: &mut [u8]);
+    fn any(&self, rays: &[Ray], found: &mut [bool]);
 
     /// Bytes of nodes, references and triangles that tracing reads; none where the library does not tell.
     fn bytes(&self) -> Option<usize>;

@@ -26,7 +26,7 @@ pub enum RaceError {
 /// Where hits go.
 struct Memory {
     hits: Vec<Hit>,
-    found: Vec<u8>,
+    found: Vec<bool>,
 }
 
 /// A contestant in the race.
@@ -51,7 +51,7 @@ pub fn race(course: &Course, entries: &[Entry], repeats: usize) -> Result<Course
     let most = course.sets.iter().map(|set| set.rays.len()).max().unwrap_or(0);
     let mut memory = Memory {
         hits: vec![Hit::miss(0.0); most],
-        found: vec![0; most],
+        found: vec![false; most],
     };
     let mut runners = Vec::new();
     for entry in entries {
@@ -130,13 +130,13 @@ fn judge(course: &Course, set: &Set, contestant: &dyn Contestant, memory: &mut M
     let count = set.rays.len();
     if set.is_any() {
         for ((hit, found), ray) in memory.hits.iter_mut().zip(&memory.found).zip(&set.rays) {
-            *hit = if *found == 0 {
-                Hit::miss(ray.t_max)
-            } else {
+            *hit = if *found {
                 Hit {
                     triangle: 0,
                     ..Hit::miss(0.0)
                 }
+            } else {
+                Hit::miss(ray.t_max)
             };
         }
     }

@@ -1,10 +1,9 @@
 //! A ray against the nodes, eight boxes at a time.
 
+use super::start::Start;
 use crate::octants::{NODE_VECTORS, toward};
-use crate::ray::PreparedRay;
-use crate::slabs::Slabs;
 use core::arch::x86_64::*;
-use glam::{UVec4, Vec3};
+use glam::UVec4;
 
 /// [`toward`] for every octant and every set of slots.
 static TOWARD: [[u8; 256]; 8] = {
@@ -58,10 +57,11 @@ pub(super) struct Nodes<'a> {
     /// How many there are.
     count: u32,
     t_min: __m256,
-    /// Of the direction, see [`Slabs`]; the bits of a power of two are to be added.
-    reciprocal: [__m256; 3],
-    unscaled: [__m256i; 3],
-    offset: [__m256; 3],
+    /// Of the direction, an axis a lane.
+    reciprocal: __m128,
+    /// The same; the bits of a power of two are to be added.
+    unscaled: __m128i,
+    offset: __m128,
     octant: u32,
     /// Row of [`TOWARD`].
     toward: &'static [u8; 256],
@@ -129,21 +129,18 @@ impl<'a> Nodes<'a> {
     /// For a ray.
     #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     #[inline]
-    pub fn new(nodes: &'a [UVec4], ray: &PreparedRay) -> Self {
-        let slabs = Slabs::new(ray);
-        let octant = slabs.octant as usize & 7;
+    pub fn new(nodes: &'a [UVec4], start: &Start) -> Self {
+        let octant = _mm_movemask_ps(start.reciprocal) as usize & 7;
         let near = [0, 1, 2].map(|axis| 32 + 32 * axis + 16 * (octant >> axis & 1));
-        let lanes = |v: Vec3| [_mm256_set1_ps(v.x), _mm256_set1_ps(v.y), _mm256_set1_ps(v.z)];
-        let reciprocal = lanes(slabs.reciprocal);
-        let one = _mm256_set1_epi32(127 << 23);
+        let one = _mm_set1_epi32(127 << 23);
         Nodes {
             nodes,
             count: nodes.len() as u32 / NODE_VECTORS,
-            t_min: _mm256_set1_ps(ray.t_min),
-            reciprocal,
-            unscaled: reciprocal.map(|lanes| _mm256_sub_epi32(_mm256_castps_si256(lanes), one)),
-            offset: lanes(slabs.offset),
-            octant: slabs.octant,
+            t_min: _mm256_set1_ps(start.ray.t_min),
+            reciprocal: start.reciprocal,
+            unscaled: _mm_sub_epi32(_mm_castps_si128(start.reciprocal), one),
+            offset: start.offset,
+            octant: octant as u32,
             toward: &TOWARD[octant],
             near,
             far: near.map(|at| at ^ 16),
@@ -174,20 +171,25 @@ impl<'a> Nodes<'a> {
         // SAFETY: nodes are 128 bytes, of which all that is read here is some and can be read from anywhere.
         unsafe {
             let words = at.cast::<f32>();
-            let frame = _mm256_castps_si256(_mm256_broadcast_ss(&*words.add(3)));
+            let frame = _mm_loadu_ps(words);
+            // The last lane is no number and may look like one that takes long to compute with.
+            let corner = _mm_blend_ps::<0b1000>(frame, _mm_setzero_ps());
+            let starts = _mm_fmadd_ps(corner, self.reciprocal, self.offset);
+            // The axes' exponents; added to those of the reciprocals they make their products.
+            let highest = _mm_set_epi32(-1, 0x0e80_8080, 0x0d80_8080, 0x0c80_8080);
+            let exponents = _mm_srli_epi32::<1>(_mm_shuffle_epi8(_mm_castps_si128(frame), highest));
+            let steps = _mm_castsi128_ps(_mm_add_epi32(exponents, self.unscaled));
+            let lanes = |v: __m128, axis: usize| match axis {
+                0 => _mm256_broadcastss_ps(v),
+                1 => _mm256_broadcastss_ps(_mm_movehdup_ps(v)),
+                _ => _mm256_broadcastss_ps(_mm_movehl_ps(v, v)),
+            };
             let crossed = |axis: usize| {
-                // The axis' exponent; added to that of the reciprocal it makes their product.
-                let exponent = _mm256_shuffle_epi8(frame, _mm256_set1_epi32((axis as i32 * 0x100_0000) | 0x80_8080));
-                let step = _mm256_add_epi32(_mm256_srli_epi32::<1>(exponent), self.unscaled[axis]);
-                let start = _mm256_fmadd_ps(
-                    _mm256_broadcast_ss(&*words.add(axis)),
-                    self.reciprocal[axis],
-                    self.offset[axis],
-                );
+                let (start, step) = (lanes(starts, axis), lanes(steps, axis));
                 let crossed = |faces: usize| {
                     let faces = _mm256_broadcastsi128_si256(_mm_loadu_si128(at.add(faces).cast()));
                     let faces = _mm256_castsi256_ps(_mm256_shuffle_epi8(faces, self.halves));
-                    _mm256_fmadd_ps(faces, _mm256_castsi256_ps(step), start)
+                    _mm256_fmadd_ps(faces, step, start)
                 };
                 (crossed(self.near[axis]), crossed(self.far[axis]))
             };

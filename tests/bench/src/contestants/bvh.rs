@@ -88,9 +88,9 @@ impl Contestant for Tree {
         }
     }
 
-    fn any(&self, rays: &[Ray], found: &mut [u8]) {
+    fn any(&self, rays: &[Ray], found: &mut [bool]) {
         for (ray, found) in rays.iter().zip(found) {
-            *found = u8::from(self.trace(ray, true).is_hit());
+            *found = self.trace(ray, true).is_hit();
         }
     }
 

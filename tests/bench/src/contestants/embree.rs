@@ -214,13 +214,13 @@ impl Contestant for Embree {
         }
     }
 
-    fn any(&self, rays: &[Ray], found: &mut [u8]) {
+    fn any(&self, rays: &[Ray], found: &mut [bool]) {
         let mut context = context();
         for (ray, found) in rays.iter().zip(found) {
             let mut ray = peer_ray(ray);
             // SAFETY: as above.
             unsafe { rtcOccluded1(self.scene, &mut context, &mut ray) };
-            *found = u8::from(ray.t_far < 0.0);
+            *found = ray.t_far < 0.0;
         }
     }
 

@@ -66,10 +66,10 @@ macro_rules! contestant {
                 }
             }
 
-            fn any(&self, rays: &[Ray], found: &mut [u8]) {
+            fn any(&self, rays: &[Ray], found: &mut [bool]) {
                 for (ray, found) in rays.iter().zip(found) {
                     let test = |ray: &PeerRay, place: usize| self.triangles[place].intersect(ray);
-                    *found = u8::from(!self.bvh.ray_traverse_miss(peer_ray(ray), test));
+                    *found = !self.bvh.ray_traverse_miss(peer_ray(ray), test);
                 }
             }
 

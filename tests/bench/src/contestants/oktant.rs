@@ -16,16 +16,14 @@ struct Oktant(Scene);
 impl Contestant for Oktant {
     fn closest(&self, rays: &[Ray], hits: &mut [Hit]) {
         let scene = self.0.view();
-        for (ray, hit) in rays.iter().zip(hits) {
-            *hit = scene.identified(Standard::closest_hit(&scene, ray));
+        Standard::closest_hits(&scene, rays, hits);
+        for hit in hits {
+            *hit = scene.identified(*hit);
         }
     }
 
-    fn any(&self, rays: &[Ray], found: &mut [u8]) {
-        let scene = self.0.view();
-        for (ray, found) in rays.iter().zip(found) {
-            *found = u8::from(Standard::any_hit(&scene, ray));
-        }
+    fn any(&self, rays: &[Ray], found: &mut [bool]) {
+        Standard::any_hits(&self.0.view(), rays, found);
     }
 
     fn bytes(&self) -> Option<usize> {

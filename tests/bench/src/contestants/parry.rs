@@ -36,10 +36,10 @@ impl Contestant for Whole {
     }
 
     /// There is no query for any hit.
-    fn any(&self, rays: &[Ray], found: &mut [u8]) {
+    fn any(&self, rays: &[Ray], found: &mut [bool]) {
         for (ray, found) in rays.iter().zip(found) {
             let best = CompositeShapeRef(&self.0).cast_local_ray(&peer_ray(ray), limit(ray), false);
-            *found = u8::from(best.is_some());
+            *found = best.is_some();
         }
     }
 
@@ -65,14 +65,14 @@ impl Contestant for Tree {
     }
 
     /// The first hit reports a distance that no other node can beat, so that nothing more is opened.
-    fn any(&self, rays: &[Ray], found: &mut [u8]) {
+    fn any(&self, rays: &[Ray], found: &mut [bool]) {
         for (ray, found) in rays.iter().zip(found) {
             let line = Line::new(ray);
             let first = self.bvh.cast_ray(&peer_ray(ray), limit(ray), |id, _| {
                 let crossing = self.triangles[id as usize].crossing(&line, ray.t_max);
                 crossing.map(|_| -f32::MAX)
             });
-            *found = u8::from(first.is_some());
+            *found = first.is_some();
         }
     }
 
