@@ -33,6 +33,19 @@ pub struct StructureOptions {
     pub grid: GridOptions,
 }
 
+impl StructureOptions {
+    /// The structure that a traversal reads, else the defaults.
+    pub fn of(traversal: TraversalKind) -> Self {
+        StructureOptions {
+            parts: Parts {
+                traversal,
+                ..Parts::default()
+            },
+            ..StructureOptions::default()
+        }
+    }
+}
+
 /// A structure over the triangles of a mesh, as flat arrays.
 #[derive(Clone, Debug)]
 pub struct Structure {

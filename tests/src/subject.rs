@@ -12,7 +12,7 @@ use oktant::progress::silent;
 use oktant::scene::Scene;
 use oktant::structure::StructureOptions;
 use oktant_shared::hit::Hit;
-use oktant_shared::parts::{Parts, TraversalKind};
+use oktant_shared::parts::TraversalKind;
 use oktant_shared::ray::Ray;
 use oktant_shared::traversal::Traversal;
 use rayon::prelude::*;
@@ -66,13 +66,7 @@ impl Subject {
     /// # Panics
     /// If it cannot be built.
     pub fn scene(&self, traversal: TraversalKind) -> Scene {
-        let options = StructureOptions {
-            parts: Parts {
-                traversal,
-                ..Parts::default()
-            },
-            ..StructureOptions::default()
-        };
+        let options = StructureOptions::of(traversal);
         Scene::new(&self.mesh, &options, &silent).expect("the mesh has an area")
     }
 

@@ -13,6 +13,7 @@ pub use device::{Gpu, GpuOptions};
 pub use kernel::Kernel;
 pub use kernel_error::KernelError;
 pub use kernel_module::{KernelManifest, ModulePath, compiled_kernel};
+pub use layouts::{READ, WRITE, compute_pipeline, group_of_buffers};
 pub use resources::{GpuPicture, GpuScene};
 
 use super::{Backend, BackendError, Query};

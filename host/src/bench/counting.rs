@@ -195,13 +195,7 @@ mod tests {
     use glam::{Vec3, vec3};
 
     fn scene(traversal: TraversalKind) -> Scene {
-        let options = StructureOptions {
-            parts: Parts {
-                traversal,
-                ..Parts::default()
-            },
-            ..StructureOptions::default()
-        };
+        let options = StructureOptions::of(traversal);
         Scene::new(&soup(500), &options, &silent).unwrap()
     }
 

@@ -138,12 +138,8 @@ fn build(
     repeats: u32,
 ) -> Result<(Arc<Scene>, Spread), MeasureError> {
     let options = StructureOptions {
-        parts: Parts {
-            traversal,
-            ..Parts::default()
-        },
         preset,
-        ..StructureOptions::default()
+        ..StructureOptions::of(traversal)
     };
     let begin = Instant::now();
     let mut times = Vec::new();

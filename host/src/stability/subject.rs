@@ -9,7 +9,7 @@ use crate::scene::{Scene, SceneError};
 use crate::structure::StructureOptions;
 use glam::{DVec3, Vec3};
 use oktant_shared::hit::Hit;
-use oktant_shared::parts::{Parts, TraversalKind};
+use oktant_shared::parts::TraversalKind;
 use oktant_shared::ray::{PreparedRay, Ray};
 use oktant_shared::triangle::Triangle;
 use oktant_shared::triangle_test::TriangleTest;
@@ -49,13 +49,7 @@ impl Subject {
     pub fn new(mesh: Mesh, rays: Vec<Ray>, wanted: Wanted, traversals: &[TraversalKind]) -> Result<Self, SceneError> {
         let mut scenes = HashMap::new();
         for traversal in traversals {
-            let options = StructureOptions {
-                parts: Parts {
-                    traversal: *traversal,
-                    ..Parts::default()
-                },
-                ..StructureOptions::default()
-            };
+            let options = StructureOptions::of(*traversal);
             scenes.insert(*traversal, Arc::new(Scene::new(&mesh, &options, &silent)?));
         }
         Ok(Subject {

@@ -2,7 +2,7 @@
 
 use super::overlay::Overlay;
 use super::showing::Showing;
-use crate::backend::gpu::Gpu;
+use crate::backend::gpu::{Gpu, READ, group_of_buffers};
 use wgpu::util::DeviceExt;
 
 /// The pipeline of the entry points `present_vertex` and `present_fragment`, for surfaces of one format.
@@ -14,26 +14,8 @@ pub struct Presenter {
 impl Presenter {
     /// Makes the pipeline.
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
-        const STORAGE: wgpu::BufferBindingType = wgpu::BufferBindingType::Storage { read_only: true };
-        let kinds = [STORAGE, STORAGE, wgpu::BufferBindingType::Uniform];
-        let entries: Vec<_> = kinds
-            .into_iter()
-            .zip(0..)
-            .map(|(ty, binding)| wgpu::BindGroupLayoutEntry {
-                binding,
-                visibility: wgpu::ShaderStages::FRAGMENT,
-                ty: wgpu::BindingType::Buffer {
-                    ty,
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-                count: None,
-            })
-            .collect();
-        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("present"),
-            entries: &entries,
-        });
+        let kinds = [READ, READ, wgpu::BufferBindingType::Uniform];
+        let layout = group_of_buffers(&gpu.device, "present", wgpu::ShaderStages::FRAGMENT, &kinds);
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("present"),
             bind_group_layouts: &[Some(&layout)],

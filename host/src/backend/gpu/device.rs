@@ -3,7 +3,7 @@
 use super::kernel::Kernel;
 use super::kernel_error::KernelError;
 use super::kernel_module::{ModulePath, create_module};
-use super::layouts::Layouts;
+use super::layouts::{Layouts, compute_pipeline};
 use super::resources::PLAIN;
 use crate::backend::BackendError;
 use std::collections::HashMap;
@@ -244,7 +244,8 @@ impl Gpu {
                 if let Some(kernel) = &self.options.kernel {
                     kernel.check(entry)?;
                 }
-                let made = self.attempt(|| create_pipeline(&self.device, &self.module, &self.layouts, entry))?;
+                let made =
+                    self.attempt(|| compute_pipeline(&self.device, &self.module, self.layouts.pipeline(entry), entry))?;
                 pipelines.entry(entry).or_insert(Arc::new(made)).clone()
             }
         };
@@ -297,25 +298,6 @@ fn failed(adapter: &str, options: &GpuOptions, reason: &str) -> BackendError {
         }),
         None => BackendError::Failed { adapter, reason },
     }
-}
-
-fn create_pipeline(
-    device: &wgpu::Device,
-    module: &wgpu::ShaderModule,
-    layouts: &Layouts,
-    entry: &str,
-) -> wgpu::ComputePipeline {
-    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some(entry),
-        layout: Some(layouts.pipeline(entry)),
-        module,
-        entry_point: Some(entry),
-        compilation_options: wgpu::PipelineCompilationOptions {
-            zero_initialize_workgroup_memory: false,
-            ..Default::default()
-        },
-        cache: None,
-    })
 }
 
 fn one_line(message: &str) -> String {

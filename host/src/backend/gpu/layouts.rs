@@ -26,6 +26,58 @@ pub(super) struct Layouts {
     probes_of_two: wgpu::PipelineLayout,
 }
 
+/// A buffer that an entry point reads.
+pub const READ: wgpu::BufferBindingType = wgpu::BufferBindingType::Storage { read_only: true };
+/// A buffer that an entry point writes.
+pub const WRITE: wgpu::BufferBindingType = wgpu::BufferBindingType::Storage { read_only: false };
+
+/// The layout of a bind group of buffers of these kinds, in the order of their bindings.
+pub fn group_of_buffers(
+    device: &wgpu::Device,
+    label: &str,
+    visibility: wgpu::ShaderStages,
+    kinds: &[wgpu::BufferBindingType],
+) -> BindGroupLayout {
+    let entries: Vec<_> = kinds
+        .iter()
+        .zip(0..)
+        .map(|(ty, binding)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility,
+            ty: wgpu::BindingType::Buffer {
+                ty: *ty,
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        })
+        .collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(label),
+        entries: &entries,
+    })
+}
+
+/// The pipeline of an entry point that computes. Memory of workgroups is not made zero first: nothing reads any.
+pub fn compute_pipeline(
+    device: &wgpu::Device,
+    module: &wgpu::ShaderModule,
+    layout: &wgpu::PipelineLayout,
+    entry: &str,
+) -> wgpu::ComputePipeline {
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(entry),
+        layout: Some(layout),
+        module,
+        entry_point: Some(entry),
+        compilation_options: wgpu::PipelineCompilationOptions {
+            zero_initialize_workgroup_memory: false,
+            ..Default::default()
+        },
+        cache: None,
+    })
+}
+
 /// Invocations in a workgroup of an entry point, as the host launches it.
 pub fn workgroup(entry: &str) -> [u32; 3] {
     match entry {
@@ -36,27 +88,8 @@ pub fn workgroup(entry: &str) -> [u32; 3] {
 
 impl Layouts {
     pub fn new(device: &wgpu::Device) -> Self {
-        const READ: wgpu::BufferBindingType = wgpu::BufferBindingType::Storage { read_only: true };
-        const WRITE: wgpu::BufferBindingType = wgpu::BufferBindingType::Storage { read_only: false };
         let group = |label, kinds: &[wgpu::BufferBindingType]| {
-            let entries: Vec<_> = kinds
-                .iter()
-                .zip(0..)
-                .map(|(ty, binding)| wgpu::BindGroupLayoutEntry {
-                    binding,
-                    visibility: wgpu::ShaderStages::COMPUTE,
-                    ty: wgpu::BindingType::Buffer {
-                        ty: *ty,
-                        has_dynamic_offset: false,
-                        min_binding_size: None,
-                    },
-                    count: None,
-                })
-                .collect();
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some(label),
-                entries: &entries,
-            })
+            group_of_buffers(device, label, wgpu::ShaderStages::COMPUTE, kinds)
         };
         let pipeline = |groups: &[Option<&BindGroupLayout>]| {
             device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {

@@ -15,7 +15,7 @@ use oktant::structure::StructureOptions;
 use oktant::tree::BuildPreset;
 use oktant_shared::octants::MARGIN;
 use oktant_shared::octree::Root;
-use oktant_shared::parts::{Parts, TraversalKind};
+use oktant_shared::parts::TraversalKind;
 use std::time::Duration;
 
 /// A structure in the arrays of oktant's bindings.
@@ -45,12 +45,8 @@ impl Arrays {
         preset: BuildPreset,
     ) -> Result<Self, Failure> {
         let options = StructureOptions {
-            parts: Parts {
-                traversal,
-                ..Parts::default()
-            },
             preset,
-            ..StructureOptions::default()
+            ..StructureOptions::of(traversal)
         };
         let scene = Scene::of_model(Model::of_mesh(mesh), &options, &silent).map_err(|error| Failure {
             who,

@@ -5,7 +5,7 @@ use super::entries::Kernel;
 use super::for_naga::for_naga;
 use bytemuck::{NoUninit, Zeroable, cast_slice};
 use oktant::backend::BackendError;
-use oktant::backend::gpu::Gpu;
+use oktant::backend::gpu::{Gpu, READ, WRITE, compute_pipeline, group_of_buffers};
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
 use oktant_shared::ray::Ray;
@@ -43,27 +43,8 @@ pub struct GpuRays {
 impl<'a> Caster<'a> {
     /// On that device.
     pub fn new(gpu: &'a Gpu) -> Self {
-        const READ: wgpu::BufferBindingType = wgpu::BufferBindingType::Storage { read_only: true };
-        const WRITE: wgpu::BufferBindingType = wgpu::BufferBindingType::Storage { read_only: false };
         let layout = |kinds: &[wgpu::BufferBindingType]| {
-            let entries: Vec<_> = (0..)
-                .zip(kinds)
-                .map(|(binding, &ty)| wgpu::BindGroupLayoutEntry {
-                    binding,
-                    visibility: wgpu::ShaderStages::COMPUTE,
-                    ty: wgpu::BindingType::Buffer {
-                        ty,
-                        has_dynamic_offset: false,
-                        min_binding_size: None,
-                    },
-                    count: None,
-                })
-                .collect();
-            let descriptor = wgpu::BindGroupLayoutDescriptor {
-                label: None,
-                entries: &entries,
-            };
-            gpu.device.create_bind_group_layout(&descriptor)
+            group_of_buffers(&gpu.device, "race", wgpu::ShaderStages::COMPUTE, kinds)
         };
         let scene = layout(&[READ; 4]);
         let frame = layout(&[wgpu::BufferBindingType::Uniform]);
@@ -135,19 +116,7 @@ impl<'a> Caster<'a> {
     }
 
     fn pipeline(&self, module: &wgpu::ShaderModule, entry: &str) -> wgpu::ComputePipeline {
-        self.gpu
-            .device
-            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry),
-                layout: Some(&self.pipeline),
-                module,
-                entry_point: Some(entry),
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    zero_initialize_workgroup_memory: false,
-                    ..Default::default()
-                },
-                cache: None,
-            })
+        compute_pipeline(&self.gpu.device, module, &self.pipeline, entry)
     }
 
     /// Copies a structure to the device.
