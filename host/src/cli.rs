@@ -3,15 +3,18 @@
 mod arguments;
 mod bench;
 mod cast;
+mod chart;
 mod check;
 mod compare;
 mod engine;
 mod info;
 mod kernels;
 mod progress_bar;
+mod reference;
 mod render;
 mod scene_source;
 mod stability;
+mod trace;
 mod view;
 
 use arguments::{Arguments, Command, ViewArguments};
@@ -35,11 +38,16 @@ pub fn run() -> ExitCode {
         .init();
     let result = match arguments.command.unwrap_or(Command::View(ViewArguments::default())) {
         Command::View(arguments) => view::run(&arguments),
-        Command::Render(arguments) => render::run(&arguments),
+        Command::Render(arguments) => match arguments.reference {
+            Some(takes) => reference::run(&arguments, takes),
+            None => render::run(&arguments),
+        },
         Command::Cast(arguments) => cast::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
+        Command::Chart(arguments) => chart::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Stability(arguments) => stability::run(&arguments),
+        Command::Trace(arguments) => trace::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Kernels(arguments) => kernels::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),

@@ -3,6 +3,7 @@
 mod validate;
 
 pub use validate::InvalidModel;
+pub(crate) use validate::validate as validate_model;
 
 use crate::build_error::BuildError;
 use crate::mesh::Mesh;

@@ -10,6 +10,7 @@ mod deserializer;
 mod document;
 mod environment;
 mod fault;
+mod folder;
 mod lathe;
 mod light;
 mod material;
@@ -29,8 +30,10 @@ use crate::build_error::BuildError;
 use crate::progress::Progress;
 use crate::scene::SceneError;
 use crate::source::Setting;
+use assembly::MOST;
 use description::Description;
 use document::Document;
+use folder::Folder;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -113,17 +116,38 @@ impl SceneFileError {
 /// Says in one sentence what is wrong first, where, and what to do.
 pub fn read(path: &Path, progress: Progress<'_>) -> Result<Setting, SceneFileError> {
     let text = load(path)?;
-    let document = Document::parse(&text).map_err(|(position, message)| SceneFileError::Syntax {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut setting = of_text(&text, path, Folder(Some(folder)), MOST, progress)?;
+    setting.files.insert(0, path.to_path_buf());
+    Ok(setting)
+}
+
+/// Reads a scene that is in memory; `name` is what errors call it. It may have at most so many triangles, and so many
+/// vertices, and refers to no files.
+///
+/// # Errors
+/// As [`read`].
+pub fn parse(text: &str, name: &Path, most: usize, progress: Progress<'_>) -> Result<Setting, SceneFileError> {
+    of_text(text, name, Folder(None), most, progress)
+}
+
+fn of_text(
+    text: &str,
+    path: &Path,
+    folder: Folder<'_>,
+    most: usize,
+    progress: Progress<'_>,
+) -> Result<Setting, SceneFileError> {
+    let document = Document::parse(text).map_err(|(position, message)| SceneFileError::Syntax {
         path: path.to_path_buf(),
         line: position.line,
         column: position.column,
         message,
     })?;
-    let folder = path.parent().unwrap_or(Path::new(""));
     let setting = document
         .deserialize::<Description>()
-        .and_then(|description| assembly::assemble(&description, folder, progress));
-    let mut setting = setting.map_err(|mut fault| {
+        .and_then(|description| assembly::assemble(&description, folder, most, progress));
+    setting.map_err(|mut fault| {
         let position = document.locate(&mut fault);
         SceneFileError::Content {
             path: path.to_path_buf(),
@@ -131,9 +155,7 @@ pub fn read(path: &Path, progress: Progress<'_>) -> Result<Setting, SceneFileErr
             column: position.column,
             sentence: fault.to_string(),
         }
-    })?;
-    setting.files.insert(0, path.to_path_buf());
-    Ok(setting)
+    })
 }
 
 fn load(path: &Path) -> Result<String, SceneFileError> {

@@ -6,8 +6,10 @@ use crate::slots::Slots;
 use glam::{Vec3, uvec2};
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
+use oktant_shared::ray::Ray;
 use oktant_shared::render::sample_ray;
 use oktant_shared::sampling::REGULAR;
+use oktant_shared::scene::World;
 use oktant_shared::surface::Surface;
 use rayon::prelude::*;
 
@@ -30,22 +32,10 @@ impl Seen {
     /// # Errors
     /// Those of `hits`.
     pub fn new<E>(frame: &Frame, scene: &Scene, hits: impl FnOnce(&Frame) -> Result<Vec<Hit>, E>) -> Result<Self, E> {
-        let middles = Frame {
-            samples: 1,
-            samples_per_side: 1,
-            first_sample: 0,
-            sample_count: 1,
-            pattern: REGULAR,
-            ..*frame
-        };
+        let middles = middles(frame);
         let hits = hits(&middles)?;
         let world = scene.world();
-        // Of a plain scene no material ids are there, and nothing bends its normals.
-        let surface = if scene.is_plain() {
-            Surface::new::<false>
-        } else {
-            Surface::new::<true>
-        };
+        let surface = surface_of(scene);
         let width = middles.size().x;
         let slots = Slots::of(scene);
         let normals = hits
@@ -72,6 +62,28 @@ impl Seen {
             hits,
             normals,
         })
+    }
+}
+
+/// The frame whose only sample of each pixel is its middle.
+pub(crate) fn middles(frame: &Frame) -> Frame {
+    Frame {
+        samples: 1,
+        samples_per_side: 1,
+        first_sample: 0,
+        sample_count: 1,
+        pattern: REGULAR,
+        ..*frame
+    }
+}
+
+/// What makes a scene's surfaces of its hits.
+pub(crate) fn surface_of(scene: &Scene) -> fn(&Frame, &World<'_>, &Ray, &Hit) -> Surface {
+    // Of a plain scene no material ids are there, and nothing bends its normals.
+    if scene.is_plain() {
+        Surface::new::<false>
+    } else {
+        Surface::new::<true>
     }
 }
 

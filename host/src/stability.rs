@@ -7,38 +7,57 @@
 mod aim;
 mod box_cases;
 mod boxes;
+mod builds;
+mod cases;
 mod clock;
 mod departures;
 mod exhibits;
 mod html;
+mod invalid;
 mod meshes;
 mod method;
 mod modes;
 mod report;
+mod shading;
 mod subject;
+mod surface_case;
 mod table;
 mod tally;
+mod touches;
 
 pub use html::page;
 pub use report::{MethodReport, Report, Role, RowReport};
 pub use table::table;
 pub use tally::{Counts, Failure};
 
+pub(crate) use aim::{Aim, at};
+pub(crate) use exhibits::cell_grid::GridForm;
+pub(crate) use exhibits::revelles::Form;
+pub(crate) use exhibits::rounding::{Contracted, Kernel, Plain};
+pub(crate) use exhibits::triangle_tests::{Epsilon, Exact, HavelHerout, MollerTrumbore, Slack, Woop};
+pub(crate) use method::Method;
+pub(crate) use subject::Wanted;
+
 use crate::backend::{BackendError, Query};
 use crate::bench::Device;
+use crate::mesh::Mesh;
 use crate::mesh_source::MeshError;
 use crate::progress::Progress;
 use crate::scene::SceneError;
 use boxes::BOX_MODES;
+use builds::BUILD_ROWS;
+use cases::Row;
 use clock::quickest;
-use departures::DEPARTURE_MODES;
+use departures::{DEPARTURE_MODES, DepartureMode};
+use invalid::INVALID_ROWS;
 use modes::{Mode, TRAVERSALS, TRIANGLE_TESTS};
 use oktant_shared::general::AnyTriangle;
 use oktant_shared::parts::{Parts, TraversalKind};
 use oktant_shared::scene::Scene as View;
 use oktant_shared::triangle_test::TriangleTest;
+use shading::SHADING_ROWS;
 use std::time::Duration;
-use subject::Subject;
+pub(crate) use subject::Subject;
 
 /// What is to be run.
 #[derive(Clone)]
@@ -74,7 +93,35 @@ pub fn row_ids() -> Vec<&'static str> {
     modes
         .chain(BOX_MODES.iter().map(|mode| mode.id))
         .chain(DEPARTURE_MODES.iter().map(|mode| mode.id))
+        .chain(rows().map(|row| row.id))
         .collect()
+}
+
+/// Those that have a way of their own to run.
+fn rows() -> impl Iterator<Item = &'static Row> {
+    INVALID_ROWS.iter().chain(SHADING_ROWS).chain(BUILD_ROWS)
+}
+
+/// Ids of the rows whose rays are traced at a mesh.
+pub fn row_ids_with_mesh() -> Vec<&'static str> {
+    let modes = TRIANGLE_TESTS.iter().chain(TRAVERSALS).map(|mode| mode.id);
+    let modes = modes.chain(DEPARTURE_MODES.iter().map(|mode| mode.id));
+    modes.chain(INVALID_ROWS.iter().map(|row| row.id)).collect()
+}
+
+/// The mesh of a row; an empty one where it has none.
+///
+/// # Errors
+/// [`MeshError`] where it cannot be had.
+pub fn mesh_of_row(id: &str) -> Result<Mesh, MeshError> {
+    if let Some(mode) = TRIANGLE_TESTS.iter().chain(TRAVERSALS).find(|mode| mode.id == id) {
+        return (mode.mesh)();
+    }
+    if INVALID_ROWS.iter().any(|row| row.id == id) {
+        return Ok(invalid::mesh());
+    }
+    let mode = DEPARTURE_MODES.iter().find(|mode| mode.id == id);
+    Ok(mode.map(DepartureMode::mesh).unwrap_or_default())
 }
 
 /// Runs the rows.
@@ -84,27 +131,40 @@ pub fn row_ids() -> Vec<&'static str> {
 pub fn run(plan: &Plan, progress: Progress<'_>) -> Result<Report, LabError> {
     let is_wanted = |id: &str| plan.rows.is_empty() || plan.rows.iter().any(|row| row == id);
     let count = row_ids().into_iter().filter(|id| is_wanted(id)).count().max(1);
-    let mut rows = Vec::new();
+    let mut rows_run = Vec::new();
     for (family, modes) in [("triangle tests", TRIANGLE_TESTS), ("traversals", TRAVERSALS)] {
         for mode in modes.iter().filter(|mode| is_wanted(mode.id)) {
-            rows.push(row(family, mode, plan)?);
-            progress("testing", rows.len() as f32 / count as f32);
+            rows_run.push(row(family, mode, plan)?);
+            progress("testing", rows_run.len() as f32 / count as f32);
         }
     }
     for mode in BOX_MODES.iter().filter(|mode| is_wanted(mode.id)) {
-        rows.push(mode.run(plan.rays));
-        progress("testing", rows.len() as f32 / count as f32);
+        rows_run.push(mode.run(plan)?);
+        progress("testing", rows_run.len() as f32 / count as f32);
     }
     for mode in DEPARTURE_MODES.iter().filter(|mode| is_wanted(mode.id)) {
-        rows.push(mode.run(plan.rays)?);
-        progress("testing", rows.len() as f32 / count as f32);
+        rows_run.push(mode.run(plan.rays)?);
+        progress("testing", rows_run.len() as f32 / count as f32);
+    }
+    for row in rows().filter(|row| is_wanted(row.id)) {
+        rows_run.push((row.run)(plan)?);
+        progress("testing", rows_run.len() as f32 / count as f32);
     }
     Ok(Report {
         version: env!("CARGO_PKG_VERSION"),
         rays: plan.rays,
         devices: plan.devices.iter().map(Device::name).collect(),
-        rows,
+        arithmetic: plan.devices.iter().filter_map(arithmetic).collect(),
+        rows: rows_run,
     })
+}
+
+/// How a GPU rounds what the watertight test relies on.
+fn arithmetic(device: &Device) -> Option<String> {
+    let Device::Gpu(gpu) = device else {
+        return None;
+    };
+    Some(format!("{}: {}", gpu.name, gpu.fused_multiply_add()))
 }
 
 /// What is offered on all devices, then the exhibits.
@@ -129,6 +189,7 @@ fn row(family: &'static str, mode: &Mode, plan: &Plan) -> Result<RowReport, LabE
             let (hits, time) = quickest(|| tracer.cast(parts, Query::Closest, &subject.rays));
             let hits = hits?;
             let (mut counts, failures) = subject.judge(&hits);
+            let failures = replayed(failures, mode.id, &format!(" {parts}"));
             if mode.counts_doubles && matches!(device, Device::Cpu) && parts.traversal == TraversalKind::Octants {
                 // Any triangle test, chosen while it runs, so that a new one needs nothing here.
                 let view = View {
@@ -159,6 +220,7 @@ fn row(family: &'static str, mode: &Mode, plan: &Plan) -> Result<RowReport, LabE
             continue;
         };
         let (mut counts, failures) = subject.judge(&hits);
+        let failures = replayed(failures, mode.id, "");
         if mode.counts_doubles {
             counts.doubled = method.doubled(&subject);
         }
@@ -180,6 +242,15 @@ fn row(family: &'static str, mode: &Mode, plan: &Plan) -> Result<RowReport, LabE
         must_fail: mode.fails.into(),
         methods,
     })
+}
+
+/// With the commands that trace the rays again.
+fn replayed(failures: Vec<Failure>, id: &str, options: &str) -> Vec<Failure> {
+    let mesh = format!("lab:{id}");
+    failures
+        .into_iter()
+        .map(|failure| failure.replayed(&mesh, options))
+        .collect()
 }
 
 /// The default first.

@@ -26,6 +26,7 @@ mod mentioned;
 mod news;
 mod notice;
 mod opener;
+mod oracle;
 mod overlay;
 mod pace;
 mod passes;

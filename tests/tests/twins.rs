@@ -6,7 +6,7 @@
 
 use glam::{Vec3, Vec4, vec3};
 use oktant::backend::cpu::Cpu;
-use oktant::backend::gpu::{Gpu, GpuBackend, GpuOptions, ModulePath};
+use oktant::backend::gpu::{FusedMultiplyAdd, Gpu, GpuBackend, GpuOptions, ModulePath};
 use oktant::backend::{Backend, BackendError};
 use oktant::balls::balls;
 use oktant::mesh::Mesh;
@@ -221,6 +221,9 @@ fn arithmetic_probe() {
         // Vulkan leaves it to the driver; the triangle test is watertight either way, but not where it is sometimes so.
         let fused = results[COUNT].x == f32::EPSILON * f32::EPSILON;
         println!("fused multiply-add rounds once: {fused}");
+        let told = gpu.fused_multiply_add();
+        assert_eq!(told == FusedMultiplyAdd::Fused, fused, "{told}");
+        assert_ne!(told, FusedMultiplyAdd::Unknown);
         for (r, turned) in results.iter().zip(gpu.probe_one("probe_arithmetic", &turned).unwrap()) {
             let sign = |y: f32| (y > 0.0, y < 0.0);
             assert_eq!(

@@ -33,6 +33,11 @@ impl Cpu {
         Cpu { scene }
     }
 
+    /// What it renders.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
     /// Milliseconds that tracing an array of rays takes by the wall's clock, `repeats` times over, after once that does not
     /// count; where the hits go is there before.
     pub fn time_cast(&self, parts: Parts, query: Query, rays: &[Ray], repeats: u32) -> Result<Vec<f64>, BackendError> {

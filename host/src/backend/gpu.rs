@@ -14,6 +14,7 @@ pub use kernel::Kernel;
 pub use kernel_error::KernelError;
 pub use kernel_module::{KernelManifest, ModulePath, compiled_kernel};
 pub use layouts::{READ, WRITE, compute_pipeline, group_of_buffers};
+pub use probe::FusedMultiplyAdd;
 pub use resources::{GpuPicture, GpuScene};
 
 use super::{Backend, BackendError, Query};

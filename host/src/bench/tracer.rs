@@ -3,6 +3,7 @@
 use crate::backend::cpu::Cpu;
 use crate::backend::gpu::{Gpu, GpuBackend};
 use crate::backend::{Backend, BackendError, Query};
+use crate::picture::Picture;
 use crate::progress::silent;
 use crate::scene::Scene;
 use oktant_shared::frame::Frame;
@@ -70,6 +71,17 @@ impl Tracer {
         match self {
             Tracer::Cpu(cpu) => cpu.cast(parts, query, rays),
             Tracer::Gpu(gpu) => gpu.cast(parts, query, rays),
+        }
+    }
+
+    /// As [`Backend::render`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn render(&mut self, frame: &Frame) -> Result<Picture, BackendError> {
+        match self {
+            Tracer::Cpu(cpu) => cpu.render(frame, &silent),
+            Tracer::Gpu(gpu) => gpu.render(frame, &silent),
         }
     }
 

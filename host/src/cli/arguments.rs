@@ -1,17 +1,21 @@
 //! What can stand on the command line.
 
 mod bench;
+mod chart;
 mod compare;
 mod look;
 mod numbers;
 mod refusal;
 mod stability;
+mod trace;
 mod values;
 
 pub use bench::{BenchArguments, BenchTable};
+pub use chart::{ChartArguments, ChartKind};
 pub use compare::CompareArguments;
 pub use look::{LookArguments, StereoArgument};
 pub use stability::StabilityArguments;
+pub use trace::{RayArgument, TraceArguments, TraceSource};
 pub use values::{Aovs, Grid, Octree, Size};
 
 use super::Failure;
@@ -19,6 +23,7 @@ use super::engine::EngineOptions;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use oktant::backend::BackendChoice;
 use oktant::backend::gpu::{GpuOptions, Kernel, ModulePath};
+use oktant::oracle::whitted::Takes;
 use oktant::output::Bits;
 use oktant::structure::StructureOptions;
 use oktant::tree::BuildPreset;
@@ -26,7 +31,7 @@ use oktant_shared::parts::{BoxKind, Parts, TraversalKind, TriangleKind};
 use refusal::refusal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use values::{aovs, box_test, grid, octree, preset, size, traversal, triangle};
+use values::{aovs, box_test, grid, octree, preset, size, takes, traversal, triangle};
 
 /// Interactive ray tracer of triangle meshes whose GPU kernel is written in Rust.
 ///
@@ -49,10 +54,14 @@ pub enum Command {
     Cast(CastArguments),
     /// Measure the thesis's pictures and all parts on sets of rays, each checked by the oracle first.
     Bench(BenchArguments),
+    /// Measure and draw charts of speed against error, or draw them from files.
+    Chart(ChartArguments),
     /// Say how far a picture is from another, in figures and as a picture.
     Compare(CompareArguments),
     /// Show where methods fail, and that the default does not.
     Stability(StabilityArguments),
+    /// Trace one ray, and print what it visits and what every test says of the triangles on its way.
+    Trace(TraceArguments),
     /// Read scene files with all that they refer to, and say what is in them, or what is wrong.
     Check(CheckArguments),
     /// List the parts that can be exchanged, and the combinations that are offered.
@@ -105,6 +114,18 @@ pub struct RenderArguments {
     /// Render so many times and print the times of the kernel: median, least and greatest.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub repeat: u32,
+    /// Render in double precision, slowly, for others to be compared with; with a number, in so many samples of a pixel, a
+    /// regular grid of 1, 4, 9, ... or 4096; docs/reference.md says more.
+    #[arg(
+        long,
+        value_name = "SAMPLES",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "",
+        value_parser = takes,
+        conflicts_with_all = ["backend", "spirv", "kernel", "repeat", "traversal", "triangle", "box_test", "build", "octree", "grid"],
+    )]
+    pub reference: Option<Takes>,
 }
 
 #[derive(Debug, Args)]

@@ -3,7 +3,7 @@
 use super::Failure;
 use super::arguments::InfoArguments;
 use glam::DVec3;
-use oktant::backend::gpu::{Gpu, compiled_kernel};
+use oktant::backend::gpu::{Gpu, GpuOptions, compiled_kernel};
 use oktant::structure::Figures;
 use std::fmt::Write;
 
@@ -112,6 +112,13 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
                 adapter.limits().max_storage_buffer_binding_size >> 20
             ),
         );
+    }
+    let opened = Gpu::open(&GpuOptions {
+        software: true,
+        ..GpuOptions::default()
+    });
+    if let Ok(gpu) = opened {
+        line("arithmetic", format!("{}: {}", gpu.name, gpu.fused_multiply_add()));
     }
     super::print(&text)
 }

@@ -72,11 +72,7 @@ pub fn render(
         counted(triangles, "triangle"),
         engine.name(),
     );
-    for file in &written {
-        if let Some(description) = &file.description {
-            eprintln!("{}: {description}", file.path.display());
-        }
-    }
+    describe(&written);
     if !scene.is_plain() {
         eprintln!("{}", told(&effort, seconds));
     }
@@ -94,7 +90,7 @@ pub fn render(
 }
 
 /// The format that is asked for, if everything that is asked for goes with it.
-fn format(files: &FileArguments, look: &LookArguments) -> Result<Format, Failure> {
+pub fn format(files: &FileArguments, look: &LookArguments) -> Result<Format, Failure> {
     let format = Format::new(&files.output, files.bits).map_err(|error| Failure::usage(error.to_string()))?;
     if format == Format::Exr && (look.exposure.is_some() || look.tone.is_some()) {
         return Err(Failure::usage(format!(
@@ -106,7 +102,7 @@ fn format(files: &FileArguments, look: &LookArguments) -> Result<Format, Failure
 }
 
 /// The files for as many eyes as a view has: a scene may say more than the command line did.
-fn for_view(
+pub fn for_view(
     files: RenderingFiles,
     view: &View,
     create: impl Fn(bool) -> Result<RenderingFiles, OutputError>,
@@ -120,7 +116,7 @@ fn for_view(
 }
 
 /// Screens take a picture for two eyes apart in its middle.
-fn check_halves(view: &View, size: Size) -> Result<(), Failure> {
+pub fn check_halves(view: &View, size: Size) -> Result<(), Failure> {
     let is_halved = view.stereo.is_some_and(|stereo| stereo.mode == StereoMode::SideBySide);
     if is_halved && size.width % 2 == 1 {
         return Err(Failure::usage(format!(
@@ -133,15 +129,24 @@ fn check_halves(view: &View, size: Size) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Says how to read the files that are no pictures of the scene.
+pub fn describe(written: &[Written]) {
+    for file in written {
+        if let Some(description) = &file.description {
+            eprintln!("{}: {description}", file.path.display());
+        }
+    }
+}
+
 /// Names of the pictures of the scene.
-fn pictures(written: &[Written]) -> String {
+pub fn pictures(written: &[Written]) -> String {
     let pictures = written.iter().filter(|file| file.description.is_none());
     let names: Vec<_> = pictures.map(|file| file.path.display().to_string()).collect();
     names.join(" and ")
 }
 
 /// The rays that were traced, and a bound of what is missing for those that were not.
-fn told(effort: &Effort, seconds: f64) -> String {
+pub fn told(effort: &Effort, seconds: f64) -> String {
     format!(
         "{} rays ({} for closest hits, {} for shadows), {} a second; rays that were cut off would add at most {} of the \
          brightest light to a pixel, {} in the mean",

@@ -4,7 +4,7 @@ use super::Failure;
 use super::arguments::MeshArguments;
 use super::progress_bar::ProgressBar;
 use glam::DVec3;
-use oktant::scene::Scene;
+use oktant::scene::{Scene, SceneError};
 use oktant::scene_file::SceneFileError;
 use oktant::source::Source;
 use oktant::view::View;
@@ -21,6 +21,14 @@ pub struct Loaded {
     pub shift: DVec3,
     pub reading: Duration,
     pub building: Duration,
+}
+
+/// Why what a source holds cannot be rendered.
+pub fn refused(source: Source, error: SceneError) -> Failure {
+    match source {
+        Source::Mesh(_) => Failure::from(error),
+        Source::Scene(path) => SceneFileError::of_build(&path, error).into(),
+    }
 }
 
 impl MeshArguments {
@@ -43,10 +51,7 @@ impl MeshArguments {
         let scene = Scene::of_model(setting.model, &self.structure.options()?, &|stage, fraction| {
             bar.show(stage, fraction)
         })
-        .map_err(|error| match source {
-            Source::Mesh(_) => Failure::from(error),
-            Source::Scene(path) => SceneFileError::of_build(&path, error).into(),
-        })?;
+        .map_err(|error| refused(source, error))?;
         Ok(Loaded {
             scene,
             view: setting.view,

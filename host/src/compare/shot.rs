@@ -3,12 +3,13 @@
 use image::error::LimitErrorKind;
 use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits};
 use oktant_shared::color::{linear_from_srgb, srgb_from_linear};
+use oktant_shared::present::mean_color;
 use rayon::prelude::*;
 use std::fs::File;
 use std::io::{self, BufReader, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use crate::picture::{LARGEST_PICTURE, LARGEST_SIDE};
+use crate::picture::{LARGEST_PICTURE, LARGEST_SIDE, Picture};
 
 /// A picture as light and as colours, row by row from the upper left; what a file says of transparency is left out.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,13 +87,23 @@ impl Shot {
                 height,
             }
         } else {
-            Shot {
-                colors: mapped(&pixels, |light| srgb_from_linear(light.clamp(0.0, 1.0))),
-                light: pixels,
-                width,
-                height,
-            }
+            Shot::of_light(width, height, pixels)
         })
+    }
+
+    /// A picture as an EXR file would hold it.
+    pub fn of_picture(picture: &Picture) -> Self {
+        let light = picture.sums.par_iter().map(|sum| mean_color(*sum).to_array());
+        Shot::of_light(picture.width, picture.height, light.collect())
+    }
+
+    fn of_light(width: u32, height: u32, light: Vec<[f32; 3]>) -> Self {
+        Shot {
+            colors: mapped(&light, |light| srgb_from_linear(light.clamp(0.0, 1.0))),
+            light,
+            width,
+            height,
+        }
     }
 
     /// Pixels in a row, and rows.

@@ -19,6 +19,7 @@ mod expansion;
 pub mod judge;
 mod ray;
 mod triangle;
+pub mod whitted;
 
 use glam::DVec3;
 use rayon::prelude::*;

@@ -2,6 +2,7 @@
 
 use super::description::Description;
 use super::fault::{Fault, Reason};
+use super::folder::Folder;
 use super::material::Palette;
 use super::place::Place;
 use super::texture::Textures;
@@ -15,16 +16,18 @@ use crate::view::View;
 use glam::{DMat3, DVec3, Vec2, Vec3};
 use oktant_shared::orbit::Up;
 use oktant_shared::plane::PLANE;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Triangles and vertices have at most so many ids.
-const MOST: usize = PLANE as usize;
+pub const MOST: usize = PLANE as usize;
 
 /// A scene in the making.
 pub struct Assembly<'a> {
     /// Paths in the file are relative to this.
-    pub folder: &'a Path,
+    pub folder: Folder<'a>,
+    /// At most so many triangles, and so many vertices.
+    most: usize,
     /// Who hears of the meshes that are read.
     pub progress: Progress<'a>,
     /// Which axis points up.
@@ -41,16 +44,22 @@ pub struct Assembly<'a> {
     files: Vec<PathBuf>,
 }
 
-/// Makes the scene that a file describes.
+/// Makes the scene that a file describes, of at most so many triangles.
 ///
 /// # Errors
 /// The first thing that is wrong.
-pub fn assemble(description: &Description, folder: &Path, progress: Progress<'_>) -> Result<Setting, Fault> {
+pub fn assemble(
+    description: &Description,
+    folder: Folder<'_>,
+    most: usize,
+    progress: Progress<'_>,
+) -> Result<Setting, Fault> {
     let up = description.up.into();
     let mut textures = Textures::read(&description.textures, &description.materials, folder)?;
     let environment = description.environment.build(&mut textures, folder, up)?;
     let mut assembly = Assembly {
         folder,
+        most,
         progress,
         up,
         palette: Palette::new(&description.materials, &textures)?,
@@ -185,8 +194,8 @@ impl Assembly<'_> {
         })?;
         self.material_ids.extend_from_slice(materials);
         join(&mut self.mesh, mesh);
-        if self.mesh.positions.len().max(self.mesh.triangles.len()) > MOST {
-            return Err(Fault::new(place, Reason::TooMany(MOST)));
+        if self.mesh.positions.len().max(self.mesh.triangles.len()) > self.most {
+            return Err(Fault::new(place, Reason::TooMany(self.most)));
         }
         Ok(())
     }

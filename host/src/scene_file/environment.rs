@@ -2,6 +2,7 @@
 
 use super::color::Radiance;
 use super::fault::{Fault, Reason};
+use super::folder::Folder;
 use super::number::{Amount, Degrees};
 use super::place::Place;
 use super::texture::Textures;
@@ -10,7 +11,7 @@ use glam::Vec3;
 use oktant_shared::environment;
 use oktant_shared::orbit::Up;
 use serde::Deserialize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// `[environment]`: what rays see that leave the scene. One colour, a gradient or an image.
 #[derive(Debug, Default, Deserialize)]
@@ -34,7 +35,12 @@ pub struct Environment {
 
 impl Environment {
     /// The environment as the kernel reads it.
-    pub fn build(&self, textures: &mut Textures, folder: &Path, up: Up) -> Result<environment::Environment, Fault> {
+    pub fn build(
+        &self,
+        textures: &mut Textures,
+        folder: Folder<'_>,
+        up: Up,
+    ) -> Result<environment::Environment, Fault> {
         let place = Place::of("environment");
         self.check(&place)?;
         let or = |color: Option<Radiance>, otherwise: Vec3| color.map_or(otherwise, |color| color.0);
@@ -46,7 +52,7 @@ impl Environment {
             ..environment::Environment::constant(horizon)
         };
         if let Some(image) = &self.image {
-            built.texture = textures.add_image(&folder.join(image), &place.key("image"))?;
+            built.texture = textures.add_image(&folder.path_of(image, &place.key("image"))?, &place.key("image"))?;
             built.strength = self.strength.map_or(1.0, |strength| strength.0);
             built.rotation = self.rotation.map_or(0.0, |degrees| {
                 // Whole turns would take digits from the rest.

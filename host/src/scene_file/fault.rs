@@ -120,6 +120,9 @@ pub enum Reason {
     /// More than ids can count.
     #[error("makes more than {0} triangles or vertices in all; leave something out")]
     TooMany(usize),
+    /// A file beside a scene that lies nowhere.
+    #[error("names a file, but a scene that is in memory has no files beside it; save it, and give its path")]
+    NoFolder,
     /// A mesh that cannot be read.
     #[error("cannot be used: {0}")]
     Mesh(Box<MeshError>),

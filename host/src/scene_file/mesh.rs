@@ -47,7 +47,10 @@ impl Mesh {
         let (source, key) = match (&self.file, self.name) {
             (Some(_), Some(_)) => return Err(Fault::new(&place.key("name"), Reason::Excludes("file"))),
             (None, None) => return Err(Fault::new(place, Reason::Lacks("a file or a name"))),
-            (Some(file), None) => (MeshSource::File(assembly.folder.join(file)), "file"),
+            (Some(file), None) => {
+                let path = assembly.folder.path_of(file, &place.key("file"))?;
+                (MeshSource::File(path), "file")
+            }
             (None, Some(Name::Bunny)) => (MeshSource::Bunny, "name"),
             (None, Some(Name::Balls)) => (MeshSource::Balls, "name"),
             (None, Some(Name::Stadium)) => (MeshSource::Stadium, "name"),

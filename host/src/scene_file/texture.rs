@@ -2,6 +2,7 @@
 
 use super::color::Reflectance;
 use super::fault::{Fault, Reason};
+use super::folder::Folder;
 use super::material::Material;
 use super::number::Repeats;
 use super::place::Place;
@@ -68,7 +69,7 @@ impl Textures {
     pub fn read(
         described: &BTreeMap<String, Texture>,
         materials: &BTreeMap<String, Material>,
-        folder: &Path,
+        folder: Folder<'_>,
     ) -> Result<Self, Fault> {
         let used = |field: fn(&Material) -> &Option<String>| -> BTreeSet<&str> {
             materials.values().filter_map(|it| field(it).as_deref()).collect()
@@ -82,7 +83,7 @@ impl Textures {
             let ids = match (texture.kind, &texture.file) {
                 (Kind::Image, Some(file)) => {
                     let place = place.key("file");
-                    let image = textures.read_image(&folder.join(file), &place)?;
+                    let image = textures.read_image(&folder.path_of(file, &place)?, &place)?;
                     let is_height = as_height.contains(name.as_str());
                     let is_color = !is_height || as_color.contains(name.as_str());
                     let mut add = |is_wanted: bool, keep: Keep| match is_wanted {

@@ -56,6 +56,11 @@ impl<'a> Aim<'a> {
         self.center + self.unit() * (radii * self.radius)
     }
 
+    /// The point so many radii from the middle in a direction.
+    pub fn outward(&self, direction: Vec3, radii: f32) -> Vec3 {
+        self.center + direction.normalize() * (radii * self.radius)
+    }
+
     /// The corners of one of the triangles.
     pub fn triangle(&mut self) -> [Vec3; 3] {
         let triangle = self.mesh.triangles[self.random.usize(..self.mesh.triangles.len())];

@@ -1,14 +1,18 @@
 //! Box tests against rays in the planes of faces, on edges, with signed zeros, without numbers, and at boxes without
 //! thickness.
 
+use super::Plan;
 use super::box_cases::{Case, UNIT, beside, edges_of_flat_boxes, hits};
 use super::clock::quickest;
 use super::exhibits::box_tests::{
     Clamped, Ignoring, Infected, Ordered, Unrounded, WilliamsDirection, WilliamsMisprinted, WilliamsReciprocal,
 };
 use super::report::{MethodReport, Role, RowReport};
-use super::tally::{Counts, Failure, written};
-use glam::{Vec3, vec3};
+use super::tally::{Counts, Failure};
+use crate::backend::BackendError;
+use crate::backend::gpu::Gpu;
+use crate::bench::Device;
+use glam::{Vec3, Vec4, vec3};
 use oktant_shared::aabb::Aabb;
 use oktant_shared::box_test::{BoxTest, KayKajiya, Williams};
 use oktant_shared::ray::{PreparedRay, Ray};
@@ -154,9 +158,12 @@ pub const BOX_MODES: &[BoxMode] = &[
 ];
 
 impl BoxMode {
-    /// Runs all box tests.
-    pub fn run(&self, count: usize) -> RowReport {
-        let cases = (self.cases)(count);
+    /// Runs all box tests, on GPUs those that can be chosen.
+    ///
+    /// # Errors
+    /// [`BackendError`] where a GPU gives up.
+    pub fn run(&self, plan: &Plan) -> Result<RowReport, BackendError> {
+        let cases = (self.cases)(plan.rays);
         let mut base = None;
         let methods = TESTS.map(|(name, role, test)| {
             let (answers, time) = quickest(|| test(&cases));
@@ -172,16 +179,54 @@ impl BoxMode {
                 failures,
             }
         });
-        RowReport {
+        let mut methods = Vec::from(methods);
+        for device in &plan.devices {
+            if let Device::Gpu(gpu) = device {
+                methods.extend(on_gpu(gpu, &cases)?);
+            }
+        }
+        Ok(RowReport {
             id: self.id,
             family: "box tests",
             title: self.title,
             input: self.input,
             remedy: self.remedy,
             must_fail: self.fails.into(),
-            methods: methods.into(),
-        }
+            methods,
+        })
     }
+}
+
+/// The box tests that can be chosen, as the kernel has them. Which rays are none is left to the processor: the kernel asks
+/// that before it tests any box.
+fn on_gpu(gpu: &Gpu, cases: &[Case]) -> Result<[MethodReport; 2], BackendError> {
+    let rays: Vec<Ray> = cases.iter().map(|case| case.ray).collect();
+    let corners: Vec<[Vec4; 2]> = cases
+        .iter()
+        .map(|case| [case.aabb.low.extend(0.0), case.aabb.high.extend(0.0)])
+        .collect();
+    let (intervals, _) = quickest(|| gpu.probe_two("probe_box_tests", &rays, &corners));
+    let intervals = intervals?;
+    let report = |(name, role, _): &Test, at: usize| {
+        let answers: Vec<bool> = cases
+            .iter()
+            .zip(&intervals)
+            .map(|(case, interval)| {
+                let ray = PreparedRay::new(&case.ray);
+                ray.valid && interval[at] <= interval[at + 1] && interval[at + 1] >= ray.t_min
+            })
+            .collect();
+        let (counts, failures) = judged(cases, &answers);
+        MethodReport {
+            name: (*name).into(),
+            role: *role,
+            device: gpu.name.clone(),
+            counts,
+            time_ratio: None,
+            failures,
+        }
+    };
+    Ok([report(&TESTS[0], 0), report(&TESTS[1], 2)])
 }
 
 fn prepared<B: BoxTest>(cases: &[Case]) -> Vec<bool> {
@@ -224,12 +269,15 @@ fn judged(cases: &[Case], answers: &[bool]) -> (Counts, Vec<Failure>) {
         phantom: wrong().count() - missed,
         ..Counts::default()
     };
-    let failure = |(case, _): (&Case, &bool)| Failure {
-        kind: if case.meets { "missed" } else { "false" },
-        ray: written(&case.ray),
-        corners: vec![vec![case.aabb.low.to_array(), case.aabb.high.to_array()]],
-        right: None,
-        answer: None,
+    let failure = |(case, _): (&Case, &bool)| {
+        let corners = [case.aabb.low.to_array(), case.aabb.high.to_array()];
+        let numbers: Vec<String> = corners.iter().flatten().map(|number| format!("{number:?}")).collect();
+        Failure {
+            kind: if case.meets { "missed" } else { "false" },
+            corners: vec![corners.into()],
+            ..Failure::of_ray(&case.ray)
+        }
+        .replayed(&format!("box:{}", numbers.join(",")), "")
     };
     (counts, wrong().take(super::subject::KEPT).map(failure).collect())
 }

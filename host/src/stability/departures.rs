@@ -7,7 +7,8 @@ use super::exhibits::origins::{
 };
 use super::meshes::sphere;
 use super::report::{MethodReport, Role, RowReport};
-use super::tally::{Counts, Failure, written};
+use super::tally::{Counts, Failure};
+use crate::mesh::Mesh;
 use crate::progress::silent;
 use crate::scene::{Scene, SceneError};
 use crate::structure::StructureOptions;
@@ -114,12 +115,17 @@ pub const DEPARTURE_MODES: &[DepartureMode] = &[
 ];
 
 impl DepartureMode {
+    /// The sphere.
+    pub fn mesh(&self) -> Mesh {
+        sphere(self.radius, self.center)
+    }
+
     /// Runs all methods.
     ///
     /// # Errors
     /// [`SceneError`].
     pub fn run(&self, count: usize) -> Result<RowReport, SceneError> {
-        let mesh = sphere(self.radius, self.center);
+        let mesh = self.mesh();
         let scene = Scene::new(&mesh, &StructureOptions::default(), &silent)?;
         let view = scene.view();
         let mut aim = Aim::new(&mesh, 31);
@@ -153,14 +159,12 @@ impl DepartureMode {
             let wrong = || departures.iter().zip(&again).filter(|(_, again)| **again);
             let failure = |(departure, _): (&Departure<'_>, &bool)| Failure {
                 kind: "false",
-                ray: written(&method(departure)),
                 corners: vec![
                     [departure.triangle.a, departure.triangle.b, departure.triangle.c]
                         .map(|c| c.to_array())
                         .into(),
                 ],
-                right: None,
-                answer: None,
+                ..Failure::of_ray(&method(departure)).replayed(&format!("lab:{}", self.id), "")
             };
             MethodReport {
                 name: name.into(),

@@ -4,10 +4,12 @@
 pub mod box_tests;
 pub mod cell_grid;
 pub mod cells;
+pub mod optics;
 pub mod origins;
 pub mod quantised;
 pub mod revelles;
 pub mod rounding;
+pub mod structures;
 pub mod triangle_tests;
 
 #[cfg(test)]

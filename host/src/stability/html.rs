@@ -23,8 +23,8 @@ pub fn page(report: &Report) -> String {
         page,
         "<p>oktant {}, up to {} rays a row, on {}. The default is wrong <b>{}</b> times. Wrong answers are missed, false, \
          farther and not finite ones; those that the rounding of f32 excuses, and rays that cross more triangles than there \
-         are to cross, are counted apart. Rays are origin and direction, then the limits of t where there are any; the \
-         numbers are exact.</p>",
+         are to cross, are counted apart. Where a row says so, work and memory beyond a bound are wrong too. The \
+         commands trace a ray again: origin and direction, then the limits of t where there are any; the numbers are exact.</p>",
         escaped(report.version),
         report.rays,
         escaped(&report.devices.join(" and on ")),
@@ -41,7 +41,7 @@ fn add_row(page: &mut String, row: &RowReport) {
     let _ = writeln!(
         page,
         "<h2 id=\"{id}\">{id}: {}</h2>\n<p>{}.<br>Remedy: {}.</p>\n<table>\n<tr><th>method<th><th>device<th>rays<th>missed\
-         <th>false<th>farther<th>not finite<th>doubled<th>excused<th>time</tr>",
+         <th>false<th>farther<th>not finite<th>doubled<th>excused<th>excess<th>time</tr>",
         escaped(row.title),
         escaped(row.input),
         escaped(row.remedy),
@@ -56,7 +56,7 @@ fn add_row(page: &mut String, row: &RowReport) {
         };
         let _ = write!(page, "<tr class=\"{class}\">");
         for (column, cell) in cells(method).iter().enumerate() {
-            let is_wrong = (4..8).contains(&column) && cell != "0";
+            let is_wrong = ((4..8).contains(&column) || column == 10) && cell != "0";
             let mark = if is_wrong { " class=\"wrong\"" } else { "" };
             let _ = write!(page, "<td{mark}>{}", escaped(cell));
         }
@@ -74,9 +74,15 @@ fn add_row(page: &mut String, row: &RowReport) {
             let t = |t: Option<String>| t.map_or_else(|| "none".into(), |t| format!("t = {t}"));
             let _ = writeln!(
                 page,
-                "<li>{}: <code>--ray {}</code>; right: {}, answer: {}",
+                "<li>{}: <code>{}</code>; right: {}, answer: {}",
                 failure.kind,
-                escaped(&failure.ray),
+                escaped(
+                    failure
+                        .replay
+                        .as_ref()
+                        .or(failure.ray.as_ref())
+                        .map_or("no ray", String::as_str)
+                ),
                 t(failure.right.map(|t| format!("{t:?}"))),
                 t(failure.answer.map(|t| format!("{t:?}")))
             );

@@ -40,9 +40,52 @@ pub fn cube() -> Mesh {
     of_corners(&triangles)
 }
 
+/// A mesh in another size and place.
+pub fn moved(mesh: Mesh, scale: f32, offset: Vec3) -> Mesh {
+    Mesh {
+        positions: mesh
+            .positions
+            .iter()
+            .map(|position| *position * scale + offset)
+            .collect(),
+        ..mesh
+    }
+}
+
 /// The square from -1 to 1 at z = 0, cut in the same way.
 pub fn flat() -> Mesh {
     of_corners(&face(2, 0.0, [-1.0, 1.0]))
+}
+
+/// Triangles side by side in the plane z = 0, facing upwards, each with a normal of its own.
+pub fn tilted(normals: &[Vec3]) -> Mesh {
+    Mesh {
+        normals: normals.iter().flat_map(|normal| [*normal; 3]).collect(),
+        ..of_corners(
+            &normals
+                .iter()
+                .enumerate()
+                .map(|(at, _)| in_plane(at))
+                .collect::<Vec<_>>(),
+        )
+    }
+}
+
+/// So many pairs of triangles back to back in the plane z = 0, with common corners.
+pub fn of_pairs(count: usize) -> Mesh {
+    let mesh = of_corners(&(0..count).map(in_plane).collect::<Vec<_>>());
+    let both = |[a, b, c]: &[u32; 3]| [[*a, *b, *c], [*a, *c, *b]];
+    Mesh {
+        triangles: mesh.triangles.iter().flat_map(both).collect(),
+        positions: mesh.positions,
+        ..Mesh::default()
+    }
+}
+
+/// One of many triangles in the plane z = 0.
+fn in_plane(at: usize) -> [[f32; 3]; 3] {
+    let (x, y) = (2.0 * (at % 300) as f32, 2.0 * (at / 300) as f32);
+    [[x, y, 0.0], [x + 1.0, y, 0.0], [x, y + 1.0, 0.0]]
 }
 
 /// A square across an axis.

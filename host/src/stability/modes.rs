@@ -6,10 +6,13 @@ mod triangle_tests;
 pub use traversals::TRAVERSALS;
 pub use triangle_tests::TRIANGLE_TESTS;
 
+use super::aim::Aim;
+use super::meshes::sphere;
 use super::method::Method;
 use super::subject::Wanted;
 use crate::mesh::Mesh;
 use crate::mesh_source::MeshError;
+use glam::Vec3;
 use oktant_shared::ray::Ray;
 
 /// A failure mode.
@@ -36,6 +39,29 @@ pub struct Mode {
     pub fails: &'static [&'static str],
 }
 
-fn rays(count: usize, ray: impl FnMut() -> Ray) -> Vec<Ray> {
-    std::iter::repeat_with(ray).take(count).collect()
+/// What most rows have: the closed sphere of radius 1, held against the oracle, and nothing doubled.
+const ON_SPHERE: Mode = Mode {
+    id: "",
+    title: "",
+    input: "",
+    remedy: "",
+    wanted: Wanted::Oracle,
+    mesh: || Ok(sphere(1.0, Vec3::ZERO)),
+    rays: |_, _| Vec::new(),
+    counts_doubles: false,
+    exhibits: &[],
+    fails: &[],
+};
+
+/// As before, but all of whose rays must hit, and of whose triangle tests crossings of too many triangles are counted.
+const TIGHT: Mode = Mode {
+    wanted: Wanted::Hit,
+    counts_doubles: true,
+    ..ON_SPHERE
+};
+
+/// So many rays, always the same ones for a seed.
+fn aimed(mesh: &Mesh, count: usize, seed: u64, ray: impl Fn(&mut Aim<'_>) -> Ray) -> Vec<Ray> {
+    let mut aim = Aim::new(mesh, seed);
+    std::iter::repeat_with(|| ray(&mut aim)).take(count).collect()
 }

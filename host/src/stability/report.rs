@@ -12,6 +12,8 @@ pub struct Report {
     pub rays: usize,
     /// Where methods ran.
     pub devices: Vec<String>,
+    /// How GPUs round a fused multiply-add.
+    pub arithmetic: Vec<String>,
     /// One for each failure mode.
     pub rows: Vec<RowReport>,
 }

@@ -1,6 +1,6 @@
 //! A mesh and rays that some method has failed on, and what is right.
 
-use super::tally::{Counts, Failure, written};
+use super::tally::{Counts, Failure};
 use crate::mesh::Mesh;
 use crate::oracle::judge::{Answer, Excuse, Outcome, judge_closest};
 use crate::oracle::{Contact, Oracle, OracleRay};
@@ -83,6 +83,7 @@ impl Subject {
             not_finite: of("not finite"),
             doubled: None,
             excused: kinds.iter().filter(|(_, excused)| *excused).count(),
+            excess: 0,
         };
         let wrong = kinds
             .iter()
@@ -133,10 +134,10 @@ impl Subject {
         };
         Failure {
             kind,
-            ray: written(ray),
             corners: ids.iter().take(8).map(corners).collect(),
             right: self.oracle.closest(&exact).map(|hit| hit.t),
             answer: hit.is_hit().then_some(hit.t),
+            ..Failure::of_ray(ray)
         }
     }
 

@@ -8,7 +8,18 @@ use std::fmt::Write;
 pub fn table(report: &Report) -> String {
     let mut text = String::new();
     for row in &report.rows {
-        let _ = writeln!(text, "{}: {}\n{}\n{}\n", row.id, row.title, row.input, methods(row));
+        let _ = writeln!(text, "{}: {}\n{}\n{}", row.id, row.title, row.input, methods(row));
+        for method in &row.methods {
+            // One of each; JSON and page have more.
+            if let Some((kind, replay)) = method
+                .failures
+                .iter()
+                .find_map(|it| Some((it.kind, it.replay.as_ref()?)))
+            {
+                let _ = writeln!(text, "{kind} by {}: {replay}", method.name);
+            }
+        }
+        text.push('\n');
     }
     let wrong = report.wrong_of_the_default();
     let _ = writeln!(
@@ -17,6 +28,9 @@ pub fn table(report: &Report) -> String {
         report.rows.len(),
         report.devices.join(" and on ")
     );
+    for line in &report.arithmetic {
+        let _ = writeln!(text, "{line}.");
+    }
     for row in &report.rows {
         let idle = row.idle();
         if !idle.is_empty() {
@@ -45,6 +59,7 @@ fn methods(row: &RowReport) -> Table {
         "not finite",
         "doubled",
         "excused",
+        "excess",
         "time",
     ]);
     for method in &row.methods {
@@ -57,7 +72,7 @@ fn methods(row: &RowReport) -> Table {
 }
 
 /// One for each column.
-pub fn cells(method: &MethodReport) -> [String; 11] {
+pub fn cells(method: &MethodReport) -> [String; 12] {
     let counts = &method.counts;
     [
         method.name.clone(),
@@ -76,6 +91,7 @@ pub fn cells(method: &MethodReport) -> [String; 11] {
         counts.not_finite.to_string(),
         counts.doubled.map_or_else(String::new, |doubled| doubled.to_string()),
         counts.excused.to_string(),
+        counts.excess.to_string(),
         method
             .time_ratio
             .map_or_else(String::new, |ratio| format!("{ratio:.2}")),

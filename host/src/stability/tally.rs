@@ -22,29 +22,52 @@ pub struct Counts {
     /// Answers of the first three kinds that are not counted there: the ray passes so close to an edge, or an end of its
     /// `t`, that f32 cannot tell.
     pub excused: usize,
+    /// Work or memory beyond its bound, see the row: rays that take more than twice that of others, or references.
+    pub excess: usize,
 }
 
 impl Counts {
     /// Answers that no rounding excuses.
     pub fn wrong(&self) -> usize {
-        self.missed + self.phantom + self.farther + self.not_finite
+        self.missed + self.phantom + self.farther + self.not_finite + self.excess
     }
 }
 
 /// A wrong answer.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Failure {
     /// Which kind.
     pub kind: &'static str,
     /// The ray: origin and direction, separated by commas, each the shortest decimal number that is that f32; then its least
-    /// and largest `t` where it has limits.
-    pub ray: String,
-    /// What it meets: corners of a triangle, or two opposite corners of a box.
+    /// and largest `t` where it has limits. None where no ray fails, but a build.
+    pub ray: Option<String>,
+    /// The command that traces it again; none where there is no mesh to trace it at.
+    pub replay: Option<String>,
+    /// What it meets: corners of a triangle, two opposite corners of a box, or normals and the way to a light.
     pub corners: Vec<Vec<[f32; 3]>>,
     /// Where it does; none where it meets nothing.
     pub right: Option<f64>,
     /// Where the method says that it does.
     pub answer: Option<f32>,
+}
+
+impl Failure {
+    /// Of a ray.
+    pub fn of_ray(ray: &Ray) -> Self {
+        Failure {
+            ray: Some(written(ray)),
+            ..Failure::default()
+        }
+    }
+
+    /// With the command that traces its ray again: at a mesh, and with options for the parts.
+    pub fn replayed(self, mesh: &str, options: &str) -> Self {
+        let replay = self
+            .ray
+            .as_ref()
+            .map(|ray| format!("oktant trace {mesh} --ray {ray}{options}"));
+        Failure { replay, ..self }
+    }
 }
 
 /// A ray in numbers that give the same ray again.

@@ -8,6 +8,7 @@ use super::kernel_file::KernelFile;
 use super::load_queue::LoadQueue;
 use super::notice::{Image, Mailbox, Notice};
 use super::opener::open_gpu;
+use super::oracle::Comparison;
 use super::overlay::{Line, Overlay};
 use super::player::Player;
 use super::renderer::Renderer;
@@ -57,6 +58,8 @@ pub struct Application {
     /// How the last picture was simplified that was begun.
     pub(super) last_draft: Draft,
     pub(super) figures: Figures,
+    /// How far the picture is from the oracle's.
+    pub(super) comparison: Comparison,
     pub(super) scene: Option<Arc<Scene>>,
     /// What the scene was made from.
     pub(super) source: Source,
@@ -122,6 +125,7 @@ impl Application {
             paces: [Paces::guessed(true); 2],
             last_draft: Draft::FINE,
             figures: Figures::default(),
+            comparison: Comparison::default(),
             scene: None,
             source: options.source.clone(),
             focus: None,

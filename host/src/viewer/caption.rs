@@ -6,7 +6,7 @@ use crate::tone::{self, Curve};
 use clap::ValueEnum;
 
 /// What every key and every drag does.
-const HELP: [(&str, &str); 19] = [
+const HELP: [(&str, &str); 20] = [
     ("left drag", "turn the camera"),
     ("right drag", "turn the light"),
     ("middle drag, Shift+drag", "pan"),
@@ -22,6 +22,7 @@ const HELP: [(&str, &str); 19] = [
     ("] [", "eyes farther apart, nearer"),
     ("B", "CPU or GPU"),
     ("I", "figures on or off"),
+    ("O", "compare with the oracle"),
     ("H, ?", "this list"),
     ("Ctrl+S", "save the picture"),
     ("drop a scene or mesh file", "look at it"),

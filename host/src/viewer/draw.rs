@@ -3,6 +3,7 @@
 use super::application::Application;
 use super::caption::{self, Caption};
 use super::notice::Image;
+use super::oracle::veiled;
 use super::overlay::{Line, Overlay};
 use super::screen::{Screen, ScreenError};
 use super::showing::Showing;
@@ -49,11 +50,17 @@ impl Application {
             }
         }
         let showing = self.showing();
+        let veiled = self.veiled_overlay();
         let Some(screen) = &mut self.screen else { return };
         if !screen.shows(&image) {
             return;
         }
-        let drawn = screen.draw(&image, &self.overlay, &showing, self.session.size);
+        let drawn = screen.draw(
+            &image,
+            veiled.as_ref().unwrap_or(&self.overlay),
+            &showing,
+            self.session.size,
+        );
         if drawn == Ok(true) {
             self.plan_turn(now);
         }
@@ -80,6 +87,12 @@ impl Application {
         }
     }
 
+    /// The overlay over what the oracle finds, if that is to be seen.
+    pub(super) fn veiled_overlay(&self) -> Option<Overlay> {
+        let findings = self.findings()?;
+        Some(veiled(&self.overlay, findings, self.part, self.session.size))
+    }
+
     fn update_overlay(&mut self, now: Instant) {
         let scale = (self.session.scale.round() as u32).max(1);
         let mut panels = Vec::new();
@@ -98,6 +111,9 @@ impl Application {
         {
             let columns = Overlay::columns(self.session.size[0], scale).min(100);
             panels.push(caption::message(&message.text, message.is_warning, columns));
+        }
+        if self.session.oracle {
+            panels.push(self.oracle_legend());
         }
         self.set_panels(panels, scale);
     }

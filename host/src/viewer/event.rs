@@ -142,6 +142,7 @@ fn key(logical: &WinitKey, physical: PhysicalKey) -> Option<Key> {
         KeyCode::KeyH => 'h',
         KeyCode::KeyI => 'i',
         KeyCode::KeyM => 'm',
+        KeyCode::KeyO => 'o',
         KeyCode::KeyP => 'p',
         KeyCode::KeyR => 'r',
         KeyCode::KeyS => 's',

@@ -5,7 +5,7 @@ use super::step::{Expectation, Step};
 use crate::nearest::nearest;
 use std::path::PathBuf;
 
-const STEPS: [&str; 14] = [
+const STEPS: [&str; 15] = [
     "drag",
     "double-click",
     "wheel",
@@ -16,6 +16,7 @@ const STEPS: [&str; 14] = [
     "open",
     "save",
     "screenshot",
+    "oracle",
     "print",
     "wait",
     "expect",
@@ -25,8 +26,8 @@ const DRAGS: [&str; 4] = ["left", "right", "middle", "shift+left"];
 const WAITS: [&str; 5] = ["settled", "frames", "samples", "reloaded", "milliseconds"];
 const EXPECTATIONS: [&str; 4] = ["first-picture", "backend", "triangles", "message"];
 /// The keys that mean something.
-pub const KEYS: [&str; 20] = [
-    "F", "R", "P", "M", "T", "+", "=", "-", ".", ",", "3", "[", "]", "B", "H", "?", "I", "Ctrl+S", "Esc", "Escape",
+pub const KEYS: [&str; 21] = [
+    "F", "R", "P", "M", "T", "+", "=", "-", ".", ",", "3", "[", "]", "B", "H", "?", "I", "O", "Ctrl+S", "Esc", "Escape",
 ];
 
 /// The first word of a text, and the rest of it.
@@ -52,6 +53,11 @@ pub fn step(line: &str) -> Result<Step, String> {
         "open" => Step::Open(path(word, rest)?),
         "save" => Step::Save(path(word, rest)?),
         "screenshot" => Step::Screenshot(path(word, rest)?),
+        "oracle" => match rest {
+            "on" => Step::Oracle(true),
+            "off" => Step::Oracle(false),
+            _ => return Err(unknown(rest, "state of the oracle", &["on", "off"])),
+        },
         "wait" => wait(rest)?,
         "expect" => Step::Expect(expectation(rest)?),
         "double-click" => alone(word, rest, Step::DoubleClick)?,

@@ -34,6 +34,7 @@ impl Application {
         }
         let playing = self.play(now);
         let working = self.work(now);
+        self.compare();
         let waiting = self.message.as_ref().map(|message| message.until);
         [
             playing,
@@ -120,6 +121,7 @@ impl ApplicationHandler<Notice> for Application {
 
     fn exiting(&mut self, _: &ActiveEventLoop) {
         self.renderer.cancel();
+        self.comparison.stop();
         self.abandon_saves();
         // The screen goes before the window, and both before the event loop.
         self.image = None;

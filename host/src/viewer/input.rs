@@ -52,6 +52,8 @@ pub enum Input {
     ToggleHelp,
     /// The figures.
     ToggleFigures,
+    /// Whether the picture is compared with the oracle's.
+    ToggleOracle,
     /// Save the picture: into a file, or under the next free name.
     Save(Option<PathBuf>),
     /// Look at another scene.

@@ -66,6 +66,7 @@ impl Application {
                     self.gpu_failed(error.and_the_cpu_renders(), now);
                 }
             }
+            Notice::Compared { number, result } => self.take_comparison(number, result),
             Notice::Saving { path, fraction } => {
                 self.saving = Some(SaveProgress { path, fraction });
                 self.redraw();

@@ -2,6 +2,7 @@
 
 use super::accident::Accident;
 use super::loader::{Arrival, Refusal};
+use super::oracle::Findings;
 use crate::backend::BackendError;
 use crate::backend::gpu::{Gpu, GpuPicture, Kernel};
 use crate::output::OutputError;
@@ -52,6 +53,13 @@ pub enum Notice {
     },
     /// What was to be shown is over, because it is done or was cancelled, or because the back end failed.
     Finished(Result<(), RenderError>),
+    /// In what the picture that is shown disagrees with the oracle, as far as it is compared, or why that cannot be told.
+    Compared {
+        /// Number of the comparison.
+        number: u64,
+        /// What came of it.
+        result: Result<Arc<Findings>, String>,
+    },
     /// How far a picture is that is to be written.
     Saving {
         /// The file.
@@ -103,6 +111,15 @@ impl Image {
         match self {
             Image::Cpu(picture) => [picture.width, picture.height],
             Image::Gpu(picture) => [picture.width, picture.height],
+        }
+    }
+
+    /// Whether both are the same memory.
+    pub fn is_same(&self, other: &Image) -> bool {
+        match (self, other) {
+            (Image::Cpu(one), Image::Cpu(other)) => Arc::ptr_eq(one, other),
+            (Image::Gpu(one), Image::Gpu(other)) => Arc::ptr_eq(one, other),
+            _ => false,
         }
     }
 }

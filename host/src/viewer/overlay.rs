@@ -29,6 +29,8 @@ pub enum Tone {
     Strong,
     /// As something that went wrong.
     Warning,
+    /// As what has that colour, sRGB-encoded.
+    Colored([u8; 3]),
 }
 
 /// A line of text.
@@ -159,6 +161,7 @@ impl Canvas {
             Tone::Plain => (&FONT_8X13, Rgb888::new(203, 211, 220)),
             Tone::Strong => (&FONT_8X13_BOLD, Rgb888::new(250, 250, 250)),
             Tone::Warning => (&FONT_8X13_BOLD, Rgb888::new(255, 190, 92)),
+            Tone::Colored([red, green, blue]) => (&FONT_8X13_BOLD, Rgb888::new(red, green, blue)),
         };
         let style = MonoTextStyle::new(font, color);
         let text = embedded_graphics::Drawable::draw(&Text::with_baseline(&line.text, at, style, Baseline::Top), self);

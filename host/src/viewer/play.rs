@@ -121,6 +121,11 @@ impl Application {
                 };
             }
             Step::Screenshot(path) => self.screenshot(path, now)?,
+            Step::Oracle(wanted) => {
+                if self.session.oracle != *wanted {
+                    self.take_input(Input::ToggleOracle, now);
+                }
+            }
             Step::Print => {
                 let text = self.report(now);
                 // Whoever closed standard output wants no more.
@@ -147,12 +152,13 @@ impl Application {
     fn screenshot(&mut self, path: &Path, now: Instant) -> Result<(), String> {
         self.draw(now);
         let showing = self.showing();
+        let veiled = self.veiled_overlay();
         let (Some(screen), Some(image), true) = (&mut self.screen, &self.image, self.session.is_visible()) else {
             return Err("the window shows no picture yet; wait for it with: wait settled".into());
         };
         let size = self.session.size;
         let pixels = screen
-            .screenshot(image, &self.overlay, &showing, size)
+            .screenshot(image, veiled.as_ref().unwrap_or(&self.overlay), &showing, size)
             .map_err(|error| error.to_string())?;
         PictureFile::create(path)
             .and_then(|file| file.save_rgb8(&pixels, size))

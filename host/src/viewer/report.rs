@@ -2,6 +2,7 @@
 
 use super::application::Application;
 use super::caption::name;
+use super::oracle::Disagreement;
 use std::time::Instant;
 
 impl Application {
@@ -41,6 +42,11 @@ impl Application {
             "target",
             format!("{} {} {}", view.target.x, view.target.y, view.target.z),
         );
+        for kind in Disagreement::ALL {
+            let count = self.findings().map(|findings| findings.count(kind));
+            let text = count.map_or_else(|| "-".into(), |count| count.to_string());
+            line(&format!("oracle-{}", kind.name()), text);
+        }
         line("first-picture", number(first));
         line("frames", self.figures.frames.to_string());
         line("frames-a-second", number(caption.frames_a_second));

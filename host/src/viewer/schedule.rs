@@ -35,6 +35,8 @@ pub struct Schedule {
     changed: Instant,
     running: Option<Running>,
     shown: Option<(u64, Quality)>,
+    /// The picture that cannot be had: what is shown in its place is another.
+    missing: Option<u64>,
 }
 
 #[derive(Debug)]
@@ -52,6 +54,7 @@ impl Schedule {
             changed: now,
             running: None,
             shown: None,
+            missing: None,
         }
     }
 
@@ -114,6 +117,7 @@ impl Schedule {
     pub fn gives_up(&mut self) {
         if let Some(running) = self.running.take() {
             self.shows(running.number, Quality::Final);
+            self.missing = Some(running.number);
         }
     }
 
@@ -125,6 +129,11 @@ impl Schedule {
     /// Whether the wanted picture is shown, finished.
     pub fn is_settled(&self) -> bool {
         self.running.is_none() && self.shown == Some((self.wanted, Quality::Final))
+    }
+
+    /// Whether what is shown is the wanted picture, finished, and not one from before because that cannot be had.
+    pub fn has_final(&self) -> bool {
+        self.is_settled() && self.missing != Some(self.wanted)
     }
 }
 
@@ -159,6 +168,7 @@ mod tests {
         schedule.started(Quality::Draft);
         schedule.gives_up();
         assert_eq!(schedule.next(start), Decision::Nothing);
+        assert!(schedule.is_settled() && !schedule.has_final());
         schedule.change(start);
         assert_eq!(schedule.next(start), Decision::Start(Quality::Draft));
     }

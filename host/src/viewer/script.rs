@@ -108,6 +108,8 @@ mod tests {
             open my meshes/a b.ply
             save out.png
             screenshot shot.png
+            oracle on
+            oracle off
             print
             wait settled
             wait frames 3
@@ -144,6 +146,8 @@ mod tests {
                 Step::Open("my meshes/a b.ply".into()),
                 Step::Save("out.png".into()),
                 Step::Screenshot("shot.png".into()),
+                Step::Oracle(true),
+                Step::Oracle(false),
                 Step::Print,
                 Step::WaitSettled,
                 Step::WaitFrames(3),
@@ -185,6 +189,7 @@ mod tests {
             "wait frames",
             "wait frames -1",
             "quit now",
+            "oracle maybe",
             "expect message",
             "expect backend tpu",
         ] {

@@ -37,6 +37,8 @@ pub struct Session {
     pub help: bool,
     /// Whether the figures are shown.
     pub figures: bool,
+    /// Whether the picture is compared with the oracle's.
+    pub oracle: bool,
     /// The view that came with the scene, changed as the command line says.
     home: View,
     /// What places are counted from.
@@ -75,6 +77,7 @@ impl Session {
             scale,
             help: false,
             figures: true,
+            oracle: false,
             home: view,
             focus: Focus {
                 center: Vec3::ZERO,
@@ -130,6 +133,10 @@ impl Session {
             }
             Input::ToggleFigures => {
                 self.figures = !self.figures;
+                return Effect::Redraw;
+            }
+            Input::ToggleOracle => {
+                self.oracle = !self.oracle;
                 return Effect::Redraw;
             }
             Input::SwitchBackend => return Effect::SwitchBackend,

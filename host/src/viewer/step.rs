@@ -40,6 +40,8 @@ pub enum Step {
     Save(PathBuf),
     /// Save what the window shows, overlay and all.
     Screenshot(PathBuf),
+    /// Compare the picture with the oracle's, or no longer.
+    Oracle(bool),
     /// Print the figures.
     Print,
     /// Wait until nothing changes any more.

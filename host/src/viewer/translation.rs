@@ -128,6 +128,7 @@ impl Translation {
             Key::Character('b') => Input::SwitchBackend,
             Key::Character('h' | '?') => Input::ToggleHelp,
             Key::Character('i') => Input::ToggleFigures,
+            Key::Character('o') => Input::ToggleOracle,
             Key::Character(_) => return None,
         })
     }
@@ -267,6 +268,7 @@ mod tests {
             ('h', Some(Input::ToggleHelp)),
             ('?', Some(Input::ToggleHelp)),
             ('i', Some(Input::ToggleFigures)),
+            ('o', Some(Input::ToggleOracle)),
             ('w', None),
             ('a', None),
             ('s', None),

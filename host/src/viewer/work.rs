@@ -83,7 +83,7 @@ impl Application {
         })
     }
 
-    fn engine(&self) -> Engine {
+    pub(super) fn engine(&self) -> Engine {
         match &self.gpu {
             GpuState::Open(gpu) if self.wants_gpu => Engine::Gpu(gpu.clone()),
             _ => Engine::Cpu,
@@ -111,6 +111,7 @@ impl Application {
     pub(super) fn is_settled(&self) -> bool {
         self.schedule.is_settled()
             && self.is_shown
+            && self.is_compared()
             && self.loads.loading().is_none()
             && self.work == Work::Idle
             && self.saving.is_none()

@@ -2,6 +2,7 @@
 
 use oktant::backend::Query;
 use oktant::bench::Truth;
+use oktant::chart::{LEAKS, leak_rays};
 use oktant::mesh::Mesh;
 use oktant::oracle::Oracle;
 use oktant::ray_sets::{RaySet, SetKind, fitted, outer};
@@ -38,6 +39,23 @@ impl Course {
     /// The sets of [`fitted`] for a picture of that size, row by row, as a GPU gets them.
     pub fn fitted(name: String, mesh: Mesh, size: [u32; 2]) -> Self {
         Self::new(name, mesh, |mesh, oracle| vec![fitted(mesh, oracle, size.into())])
+    }
+
+    /// So many rays at edges and corners of a closed ball, as [`leak_rays`] makes them, for the closest hit: none may miss.
+    pub fn leaks(count: usize) -> Self {
+        let (mesh, rays) = leak_rays(count);
+        let oracle = Oracle::new(&mesh);
+        let kind = SetKind::Primary;
+        Course {
+            name: LEAKS.into(),
+            sets: vec![Set {
+                kind,
+                truth: Truth::new(&oracle, kind.query(), &rays),
+                rays,
+            }],
+            mesh,
+            oracle,
+        }
     }
 
     fn new(name: String, mesh: Mesh, views: impl Fn(&Mesh, &Oracle) -> Vec<[RaySet; 4]>) -> Self {

@@ -15,6 +15,7 @@ use clap::{CommandFactory, Parser};
 use course::Course;
 use gpu::GpuEntry;
 use oktant::backend::gpu::{Gpu, GpuOptions, ModulePath};
+use oktant::chart::{Origin, command_line};
 use oktant::mesh_source::MeshSource;
 use oktant::output::TextFile;
 use oktant::progress::silent;
@@ -52,6 +53,10 @@ struct Arguments {
     /// Only oktant and those whose name contains one of these.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     only: Vec<String>,
+    /// Trace the rays of `oktant chart accuracy --rays N`: N at edges and corners of a closed ball first, where a peer may leak
+    /// as it likes, then of three views, also on a GPU.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(10..=1_000_000_000))]
+    chart: Option<u32>,
     /// Write everything into a JSON file.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -78,6 +83,14 @@ enum Spirv {
     Passthrough,
     /// Through naga.
     Naga,
+}
+
+/// What is traced, one after the other.
+enum Lap<'a> {
+    /// So many rays at a closed ball.
+    Leaks(usize),
+    /// The rays of pictures of a mesh.
+    Mesh(&'a PathBuf),
 }
 
 /// A peer that is wrong about more than this part of the rays has been called wrongly.
@@ -132,26 +145,47 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             kernel: None,
         })?),
     };
+    let adapters: Vec<String> = gpu.iter().map(|gpu| gpu.name.clone()).collect();
+    let origin = Origin::here(&adapters, command_line("oktant-bench-peers"));
     let mut report = Report {
+        machine: origin.machine,
+        commit: origin.commit,
+        command: origin.command,
         size: arguments.size,
         repeats: arguments.repeat,
         meshes: Vec::new(),
     };
     let pins = Pins::written()?;
     let mut sound = true;
-    for mesh in &arguments.meshes {
-        let source = MeshSource::from_argument(Some(mesh));
-        let (name, mesh) = (source.to_string(), source.load(&silent)?);
+    let is_for_chart = arguments.chart.is_some();
+    let leaks = arguments.chart.map(|count| Lap::Leaks(count as usize));
+    for lap in leaks.into_iter().chain(arguments.meshes.iter().map(Lap::Mesh)) {
+        let course = match lap {
+            Lap::Leaks(count) => Course::leaks(count),
+            Lap::Mesh(path) => {
+                let source = MeshSource::from_argument(Some(path));
+                let (name, mesh) = (source.to_string(), source.load(&silent)?);
+                match gpu {
+                    Some(_) if !is_for_chart => Course::fitted(name, mesh, arguments.size),
+                    _ => Course::outer(name, mesh, arguments.size),
+                }
+            }
+        };
         let told = match &gpu {
-            None => race::race(&Course::outer(name, mesh, arguments.size), &entries, arguments.repeat)?,
+            None => race::race(&course, &entries, arguments.repeat)?,
             Some(gpu) => {
-                let course = Course::fitted(name, mesh, arguments.size);
                 let wanted = |entry: &GpuEntry| wanted(entry.name, entry.is_ours);
                 gpu::race(&course, gpu, wanted, arguments.repeat)?
             }
         };
         writeln!(io::stdout(), "{}", told.tables())?;
-        for one in told.contestants.iter().filter(|one| !is_sound(one)) {
+        let is_ours_or_sought = |one: &&ContestantReport| one.is_ours || matches!(lap, Lap::Mesh(_));
+        for one in told
+            .contestants
+            .iter()
+            .filter(is_ours_or_sought)
+            .filter(|one| !is_sound(one))
+        {
             let (surfaces, distances) = one.wrong();
             eprintln!(
                 "{}: {surfaces} rays missed or false, {distances} with t off, of {}",

@@ -8,6 +8,12 @@ use serde::Serialize;
 /// Everything.
 #[derive(Serialize)]
 pub struct Report {
+    /// What it was measured on.
+    pub machine: String,
+    /// Of the source that was measured.
+    pub commit: String,
+    /// What makes it again.
+    pub command: String,
     /// Width and height of the pictures whose rays were traced.
     pub size: [u32; 2],
     /// Measurements of each time.

@@ -6,6 +6,7 @@ use oktant::scene_file;
 use oktant_tests::program::run;
 use std::fmt::Write;
 use std::fs;
+use std::path::Path;
 use tempfile::tempdir;
 
 /// The messages are in `tests/goldens/broken-scenes.txt`. After a wanted change, write them anew with
@@ -33,6 +34,35 @@ fn broken_scenes_are_explained() {
         wanted,
         "what is said about broken scenes is not what {} says",
         golden.display()
+    );
+}
+
+/// A scene without a file has no files beside it, and no more triangles than are allowed.
+#[test]
+fn scenes_in_memory_touch_no_files() {
+    let parse = |text: &str, most| scene_file::parse(text, Path::new("memory"), most, &silent);
+    let setting = parse("[[sphere]]\n", 1 << 20).unwrap();
+    assert!(setting.files.is_empty() && setting.model.mesh.triangles.len() > 1000);
+    assert!(parse("[[mesh]]\nname = \"balls\"\n", 1 << 20).is_ok());
+    let beside = "names a file, but a scene that is in memory has no files beside it";
+    for (text, field) in [
+        ("[[mesh]]\nfile = \"bunny.ply\"\n", "memory:2:8: mesh.file"),
+        (
+            "[[sphere]]\n[environment]\nimage = \"sky.hdr\"\n",
+            "memory:3:9: environment.image",
+        ),
+        (
+            "[[sphere]]\n[textures.wood]\nfile = \"wood.png\"\n",
+            "memory:3:8: textures.wood.file",
+        ),
+    ] {
+        let message = parse(text, 1 << 20).unwrap_err().to_string();
+        assert!(message.starts_with(&format!("{field} {beside}")), "{message}");
+    }
+    let message = parse("[[sphere]]\n[[sphere]]\n", 2000).unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "memory:2:1: sphere makes more than 2000 triangles or vertices in all; leave something out"
     );
 }
 

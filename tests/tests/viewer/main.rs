@@ -6,6 +6,7 @@
 
 mod files;
 mod look;
+mod oracle;
 mod saves;
 mod start;
 mod window;

@@ -4,6 +4,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use oktant::aov::Aov;
 use oktant::grid::GridOptions;
 use oktant::octree::OctreeOptions;
+use oktant::oracle::whitted::Takes;
 use oktant::picture::{DEFAULT_SIZE, LARGEST_PICTURE, LARGEST_SIDE};
 use oktant::tree::BuildPreset;
 use oktant_shared::octree::MAX_DEPTH;
@@ -46,6 +47,18 @@ pub fn size(text: &str) -> Result<Size, String> {
         ));
     }
     Ok(size)
+}
+
+/// Samples of the reference: a square number, or nothing for those that the scene asks for.
+pub fn takes(text: &str) -> Result<Takes, String> {
+    if text.is_empty() {
+        return Ok(Takes::View);
+    }
+    let side = text.trim().parse::<u32>().ok().map(u32::isqrt);
+    match side {
+        Some(side) if (1..=64).contains(&side) && text.trim() == (side * side).to_string() => Ok(Takes::Grid(side)),
+        _ => Err("give the square of a whole number from 1 to 64: 1, 4, 9, ... 4096".into()),
+    }
 }
 
 /// Limits of the octree as given; what is not given keeps its default.

@@ -34,6 +34,8 @@ pub struct Form {
     pub strict: bool,
     /// What belongs to a cell.
     pub faces: Faces,
+    /// Whether the ray's origin is mirrored, as published; else the planes are met in the other order.
+    pub mirrors_origin: bool,
 }
 
 impl Form {
@@ -45,6 +47,7 @@ impl Form {
         first_leaf: false,
         strict: true,
         faces: Faces::Closed,
+        mirrors_origin: true,
     };
 
     /// Without the failures of the others.
@@ -52,6 +55,7 @@ impl Form {
         zeros: Zeros::Ruled,
         averaged: false,
         strict: false,
+        mirrors_origin: false,
         ..Form::PUBLISHED
     };
 }
@@ -78,7 +82,7 @@ pub struct Revelles {
 /// A ray on its way.
 struct Search<'a> {
     tree: &'a Revelles,
-    /// Mirrored, so that no component of the direction is negative.
+    /// Mirrored where the form says so, so that no component of the direction is negative.
     origin: Vec3,
     direction: Vec3,
     /// Axes that were mirrored.
@@ -115,17 +119,22 @@ impl Revelles {
             best: Hit::miss(ray.t_max),
             ray: prepared,
         };
+        let (mut low, mut high) = (self.low, self.high);
         for axis in 0..3 {
             if self.form.zeros == Zeros::Tiny && search.direction[axis] == 0.0 {
                 search.direction[axis] = 1e-7;
             }
             if search.direction[axis] < 0.0 {
-                search.origin[axis] = self.low[axis] + self.high[axis] - search.origin[axis];
-                search.direction[axis] = -search.direction[axis];
                 search.mirrored |= 1 << axis;
+                if self.form.mirrors_origin {
+                    search.origin[axis] = self.low[axis] + self.high[axis] - search.origin[axis];
+                    search.direction[axis] = -search.direction[axis];
+                } else {
+                    (low[axis], high[axis]) = (self.high[axis], self.low[axis]);
+                }
             }
         }
-        let [enter, exit] = [self.low, self.high].map(|plane| (plane - search.origin) / search.direction);
+        let [enter, exit] = [low, high].map(|plane| (plane - search.origin) / search.direction);
         let (mut enter, mut exit) = (enter, exit);
         for axis in 0..3 {
             if self.form.zeros == Zeros::Ruled && search.direction[axis] == 0.0 {
@@ -137,14 +146,15 @@ impl Revelles {
         }
         let (first, last) = (greatest(enter), least(exit));
         if first < last || (!self.form.strict && first <= last) {
-            search.visit(&self.root, enter, exit, self.low, self.high);
+            search.visit(&self.root, enter, exit, low, high);
         }
         search.best
     }
 }
 
 impl Search<'_> {
-    /// Visits a cell, whose corners are those of the mirrored root; returns whether the search is at its end.
+    /// Visits a cell; returns whether the search is at its end. Its corners are those that the ray moves away from and
+    /// towards, of the mirrored root where that is mirrored.
     fn visit(&mut self, node: &Node, enter: Vec3, exit: Vec3, low: Vec3, high: Vec3) -> bool {
         if exit.cmplt(Vec3::ZERO).any() {
             return false;

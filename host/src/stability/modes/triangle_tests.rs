@@ -1,6 +1,6 @@
 //! Where triangle tests fail.
 
-use super::{Mode, rays};
+use super::{Mode, ON_SPHERE, TIGHT, aimed};
 use crate::mesh::Mesh;
 use crate::mesh_source::MeshSource;
 use crate::progress::silent;
@@ -25,6 +25,11 @@ const KERNEL: Method = Method::twin::<Woop<Kernel, false>>("watertight, contract
 /// origin that is outside is advanced, and the ray is another one by a rounding.
 const BEHIND: [[f32; 3]; 3] = [[0.6, -0.6, -0.6], [0.5, -0.6, -0.6], [0.6, -0.5, -0.6]];
 
+const EPSILON_6: Method = Method::triangle::<MollerTrumbore<Plain, Epsilon<6>>>("moller-trumbore, epsilon 1e-6");
+const EPSILON_7: Method = Method::triangle::<MollerTrumbore<Plain, Epsilon<7>>>("moller-trumbore, epsilon 1e-7");
+const SLACK: Method = Method::triangle::<MollerTrumbore<Plain, Slack>>("moller-trumbore, slack 1e-6");
+const HAVEL_HEROUT: Method = Method::triangle::<HavelHerout>("havel-herout");
+
 /// All of them.
 pub const TRIANGLE_TESTS: &[Mode] = &[
     Mode {
@@ -32,103 +37,70 @@ pub const TRIANGLE_TESTS: &[Mode] = &[
         title: "shared edges",
         input: "closed sphere of radius 1; from inside at points on its edges",
         remedy: "edge functions whose sign flips, and nothing else, for the neighbour",
-        wanted: Wanted::Hit,
-        mesh: || Ok(sphere(1.0, Vec3::ZERO)),
         rays: at_edges,
-        counts_doubles: true,
-        exhibits: &[
-            KERNEL,
-            MOLLER_TRUMBORE,
-            WOOP,
-            PLUCKER,
-            Method::triangle::<MollerTrumbore<Plain, Slack>>("moller-trumbore, slack 1e-6"),
-            Method::triangle::<HavelHerout>("havel-herout"),
-        ],
+        exhibits: &[KERNEL, MOLLER_TRUMBORE, WOOP, PLUCKER, SLACK, HAVEL_HEROUT],
         fails: &[
             "moller-trumbore",
             "baldwin-weber",
             "moller-trumbore, contracted",
             "havel-herout",
         ],
+        ..TIGHT
     },
     Mode {
         id: "edges-small",
         title: "shared edges of a small mesh",
         input: "closed sphere of radius 0.001; from inside at points on its edges",
         remedy: "no absolute epsilon: the determinant scales with the square of the edges",
-        wanted: Wanted::Hit,
         mesh: || Ok(sphere(1e-3, Vec3::ZERO)),
         rays: at_edges,
-        counts_doubles: true,
-        exhibits: &[
-            KERNEL,
-            MOLLER_TRUMBORE,
-            WOOP,
-            Method::triangle::<MollerTrumbore<Plain, Epsilon<7>>>("moller-trumbore, epsilon 1e-7"),
-        ],
+        exhibits: &[KERNEL, MOLLER_TRUMBORE, WOOP, EPSILON_7],
         fails: &[
             "moller-trumbore",
             "moller-trumbore, contracted",
             "moller-trumbore, epsilon 1e-7",
         ],
+        ..TIGHT
     },
     Mode {
         id: "edges-offset",
         title: "shared edges far from the origin of coordinates",
         input: "closed sphere of radius 1 about (1000, 1234, -2234); from inside at points on its edges",
         remedy: "corners are taken relative to the ray's origin first",
-        wanted: Wanted::Hit,
         mesh: || Ok(sphere(1.0, vec3(1000.0, 1234.0, -2234.0))),
         rays: at_edges,
-        counts_doubles: true,
-        exhibits: &[
-            KERNEL,
-            MOLLER_TRUMBORE,
-            WOOP,
-            Method::triangle::<HavelHerout>("havel-herout"),
-        ],
+        exhibits: &[KERNEL, MOLLER_TRUMBORE, WOOP, HAVEL_HEROUT],
         fails: &["baldwin-weber", "havel-herout"],
+        ..TIGHT
     },
     Mode {
         id: "vertices",
         title: "shared vertices",
         input: "closed sphere of radius 1; from inside at its vertices",
         remedy: "all triangles round a corner see the same projected corner",
-        wanted: Wanted::Hit,
-        mesh: || Ok(sphere(1.0, Vec3::ZERO)),
         rays: |mesh, count| aimed_from_inside(mesh, count, 2, |aim| aim.vertex()),
-        counts_doubles: true,
-        exhibits: &[
-            KERNEL,
-            MOLLER_TRUMBORE,
-            WOOP,
-            PLUCKER,
-            Method::triangle::<MollerTrumbore<Plain, Slack>>("moller-trumbore, slack 1e-6"),
-        ],
+        exhibits: &[KERNEL, MOLLER_TRUMBORE, WOOP, PLUCKER, SLACK],
         fails: &[
             "moller-trumbore",
             "baldwin-weber",
             "moller-trumbore, contracted",
             "plucker, contracted",
         ],
+        ..TIGHT
     },
     Mode {
         id: "interiors",
         title: "interiors, by an epsilon that is larger than the determinants",
         input: "the Stanford bunny in its own units, 0.156 wide; from outside at points in its triangles",
         remedy: "the determinant is compared with zero",
-        wanted: Wanted::Oracle,
         mesh: || MeshSource::Bunny.load(&silent),
-        rays: |mesh, count| {
-            let mut aim = Aim::new(mesh, 3);
-            rays(count, || at(aim.away(2.0), aim.in_triangle()))
-        },
-        counts_doubles: false,
+        rays: |mesh, count| aimed(mesh, count, 3, |aim| at(aim.away(2.0), aim.in_triangle())),
         exhibits: &[
             Method::triangle::<MollerTrumbore<Plain, Epsilon<5>>>("moller-trumbore, epsilon 1e-5"),
-            Method::triangle::<MollerTrumbore<Plain, Epsilon<6>>>("moller-trumbore, epsilon 1e-6"),
+            EPSILON_6,
         ],
         fails: &["moller-trumbore, epsilon 1e-5", "moller-trumbore, epsilon 1e-6"],
+        ..ON_SPHERE
     },
     Mode {
         id: "tiny",
@@ -138,29 +110,21 @@ pub const TRIANGLE_TESTS: &[Mode] = &[
         wanted: Wanted::Hit,
         mesh: || Ok(of_corners(&[[[0.0; 3], [2e-4, 0.0, 0.0], [0.0, 2e-4, 0.0]]])),
         rays: |_, _| vec![Ray::new(vec3(2e-4 / 3.0, 2e-4 / 3.0, -1.0), Vec3::Z)],
-        counts_doubles: false,
-        exhibits: &[
-            Method::triangle::<MollerTrumbore<Plain, Epsilon<6>>>("moller-trumbore, epsilon 1e-6"),
-            Method::triangle::<MollerTrumbore<Plain, Epsilon<7>>>("moller-trumbore, epsilon 1e-7"),
-        ],
+        exhibits: &[EPSILON_6, EPSILON_7],
         fails: &["moller-trumbore, epsilon 1e-6", "moller-trumbore, epsilon 1e-7"],
+        ..ON_SPHERE
     },
     Mode {
         id: "one-bound",
         title: "only the sum of the weights held against zero, as in the thesis",
         input: "closed sphere of radius 1; from outside at points within 1.5 radii",
         remedy: "each weight is held against zero",
-        wanted: Wanted::Oracle,
-        mesh: || Ok(sphere(1.0, Vec3::ZERO)),
-        rays: |mesh, count| {
-            let mut aim = Aim::new(mesh, 4);
-            rays(count, || at(aim.away(3.0), aim.within(1.5)))
-        },
-        counts_doubles: false,
+        rays: |mesh, count| aimed(mesh, count, 4, |aim| at(aim.away(3.0), aim.within(1.5))),
         exhibits: &[Method::triangle::<MollerTrumbore<Plain, OneBound>>(
             "moller-trumbore, u + v >= 0",
         )],
         fails: &["moller-trumbore, u + v >= 0"],
+        ..ON_SPHERE
     },
     Mode {
         id: "utm",
@@ -169,20 +133,16 @@ pub const TRIANGLE_TESTS: &[Mode] = &[
         remedy: "corners are taken relative to the ray's origin first",
         wanted: Wanted::Hit,
         mesh: || Ok(sphere(2.0, vec3(148_376.0, 1234.0, -223_423.0))),
-        rays: |mesh, count| {
-            let mut aim = Aim::new(mesh, 5);
-            rays(count, || Ray::new(aim.within(0.25), aim.unit()))
-        },
-        counts_doubles: false,
-        exhibits: &[Method::triangle::<HavelHerout>("havel-herout")],
+        rays: |mesh, count| aimed(mesh, count, 5, |aim| Ray::new(aim.within(0.25), aim.unit())),
+        exhibits: &[HAVEL_HEROUT],
         fails: &["baldwin-weber", "havel-herout"],
+        ..ON_SPHERE
     },
     Mode {
         id: "leak-moller-trumbore",
         title: "the edge of two triangles of the bunny",
         input: "a ray through the shared edge that both of Moller and Trumbore's tests leave out",
         remedy: "edge functions whose sign flips, and nothing else, for the neighbour",
-        wanted: Wanted::Hit,
         mesh: || {
             let (a, b) = ([0.0185807, -0.13282, 0.589612], [0.0172833, -0.109403, 0.584628]);
             let (c, d) = ([0.0047078, -0.115145, 0.584423], [0.00386001, -0.133219, 0.585925]);
@@ -194,16 +154,15 @@ pub const TRIANGLE_TESTS: &[Mode] = &[
                 vec3(0.09328443, -0.118228264, 0.60522157),
             )]
         },
-        counts_doubles: true,
         exhibits: &[KERNEL, MOLLER_TRUMBORE],
         fails: &["moller-trumbore", "moller-trumbore, contracted"],
+        ..TIGHT
     },
     Mode {
         id: "leak-contracted",
         title: "an edge that leaks only where products and sums are contracted",
         input: "a ray through the shared edge of two triangles of the bunny",
         remedy: "Kahan's difference of products, whose sign is right with a fused multiply-add",
-        wanted: Wanted::Hit,
         mesh: || {
             Ok(of_corners(&[
                 [
@@ -225,16 +184,15 @@ pub const TRIANGLE_TESTS: &[Mode] = &[
                 vec3(-0.117076114, 0.024359543, 0.47292155),
             )]
         },
-        counts_doubles: true,
         exhibits: &[KERNEL, WOOP],
         fails: &["woop, contracted"],
+        ..TIGHT
     },
     Mode {
         id: "leak-plucker",
         title: "a vertex of five triangles at which Pluecker's sides leak",
         input: "a ray at the vertex; a fan of five triangles of the bunny",
         remedy: "all triangles round a corner see the same projected corner",
-        wanted: Wanted::Hit,
         mesh: || {
             let hub = [-0.599008, 0.590537, 0.271344];
             Ok(of_corners(&[
@@ -252,13 +210,13 @@ pub const TRIANGLE_TESTS: &[Mode] = &[
                 vec3(-0.57517076, 0.6097454, 0.27001423),
             )]
         },
-        counts_doubles: true,
         exhibits: &[
             KERNEL,
             PLUCKER,
             Method::triangle::<Plucker<Plain, true>>("plucker, slack of an ulp"),
         ],
         fails: &["plucker, slack of an ulp"],
+        ..TIGHT
     },
 ];
 
@@ -268,6 +226,5 @@ fn at_edges(mesh: &Mesh, count: usize) -> Vec<Ray> {
 
 /// From within a quarter of the radius of the middle.
 fn aimed_from_inside(mesh: &Mesh, count: usize, seed: u64, target: fn(&mut Aim<'_>) -> Vec3) -> Vec<Ray> {
-    let mut aim = Aim::new(mesh, seed);
-    rays(count, || at(aim.within(0.25), target(&mut aim)))
+    aimed(mesh, count, seed, |aim| at(aim.within(0.25), target(aim)))
 }

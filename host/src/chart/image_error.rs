@@ -1,0 +1,87 @@
+//! What samples cost, and how near they come to the picture of very many.
+
+use super::axis::Axis;
+use super::figure::{Figure, Panel};
+use super::pareto::Better;
+use super::plan::{MeasureError, Plan, short_name};
+use super::record::{Record, Value};
+use super::sitter::Sitter;
+use crate::oracle::whitted::Takes;
+use crate::progress::Progress;
+use crate::sampling::{Pattern, Samples};
+use crate::view::View;
+
+/// The reference has so many samples along each side of a pixel.
+const REFERENCE_SIDE: u32 = 32;
+
+const PATTERNS: [(Pattern, &str); 3] = [
+    (Pattern::Regular, "regular grid"),
+    (Pattern::Rotated, "rotated grid"),
+    (Pattern::R2, "R2 sequence"),
+];
+
+/// The error of pictures in 1, 4, 16 and 64 samples of each pattern against milliseconds, scene by scene: one figure of the
+/// root mean square error of the light, one of the mean of FLIP. What is right is a picture of 1,024 samples in f64, with the
+/// scene's own filter, depth and cut-off. `progress` hears of the stages "rendering" and "measuring".
+///
+/// # Errors
+/// [`MeasureError`].
+pub fn image_error(plan: &Plan, progress: Progress<'_>) -> Result<[Figure; 2], MeasureError> {
+    let [width, height] = plan.pictures.to_array();
+    let explanation = format!(
+        "Pictures of {width} x {height} pixels in 1, 4, 16 and 64 samples of a pixel, against one of {} in double precision. \
+         Lower left is better; the numbers are those of the samples.",
+        REFERENCE_SIDE * REFERENCE_SIDE,
+    );
+    let mut rmse = plan.figure(
+        "image-error-rmse",
+        "What samples cost and bring: the light's error",
+        &explanation,
+    );
+    let mut flip = plan.figure(
+        "image-error-flip",
+        "What samples cost and bring: what an eye sees",
+        &explanation,
+    );
+    for source in &plan.sources {
+        let sitter = Sitter::load(source, plan.pictures, progress)?;
+        for (figure, label) in [(&mut rmse, "RMSE of the light"), (&mut flip, "mean of FLIP")] {
+            figure.panels.push(Panel {
+                name: sitter.name.clone(),
+                x: Axis::log("milliseconds"),
+                y: Axis::log(label),
+                better: Some([Better::Lower; 2]),
+                is_joined: true,
+            });
+        }
+        let wanted = sitter.wanted(&sitter.view, Takes::Grid(REFERENCE_SIDE), progress)?;
+        for device in &plan.devices {
+            let mut tracer = device.with(&sitter.scene)?;
+            for (done, (pattern, name)) in PATTERNS.into_iter().enumerate() {
+                progress("measuring", done as f32 / PATTERNS.len() as f32);
+                for samples in Samples::ALL {
+                    let view = View {
+                        pattern,
+                        samples,
+                        ..sitter.view
+                    };
+                    let (comparison, milliseconds) = sitter.taken(&mut tracer, &view, &wanted, plan.repeats)?;
+                    let record = |error: f64| Record {
+                        panel: sitter.name.clone(),
+                        series: match plan.devices.len() {
+                            1 => name.into(),
+                            _ => format!("{name}, {}", short_name(device)),
+                        },
+                        label: samples.count().to_string(),
+                        x: milliseconds,
+                        y: Value::Number(error),
+                        is_marked: (pattern, samples) == (View::default().pattern, View::default().samples),
+                    };
+                    rmse.records.push(record(comparison.rmse));
+                    flip.records.push(record(comparison.flip.mean));
+                }
+            }
+        }
+    }
+    Ok([rmse, flip])
+}

@@ -1,0 +1,66 @@
+//! `oktant render --reference`.
+
+use super::Failure;
+use super::arguments::{RenderArguments, Size, StereoArgument};
+use super::progress_bar::ProgressBar;
+use super::render::{check_halves, counted, describe, for_view, format, pictures, told};
+use super::scene_source::refused;
+use oktant::effort::Effort;
+use oktant::oracle::whitted::{Reference, Takes};
+use oktant::output::RenderingFiles;
+use oktant::seen::Seen;
+use oktant::stereo::StereoMode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// Renders a picture in f64 into its files and says what was done.
+pub fn run(arguments: &RenderArguments, takes: Takes) -> Result<(), Failure> {
+    let RenderArguments { mesh, files, look, .. } = arguments;
+    if takes != Takes::View && (look.samples.is_some() || look.pattern.is_some()) {
+        return Err(Failure::usage(
+            "--reference=SAMPLES says itself how many samples there are, and where; leave --samples and --pattern out, or \
+             give --reference alone.",
+        ));
+    }
+    let source = mesh.source();
+    look.check(&source)?;
+    let format = format(files, look)?;
+    let aovs = files.aov.0.as_slice();
+    let create = |is_pair| RenderingFiles::create(&files.output, format, aovs, is_pair);
+    let mut output = create(look.stereo == Some(StereoArgument(Some(StereoMode::Sequential))))?;
+    let bar = ProgressBar::new();
+    let setting = source.load(&|stage, fraction| bar.show(stage, fraction))?;
+    let size = arguments.size.or(setting.size.map(Size::from)).unwrap_or_default();
+    let view = look.applied(setting.view);
+    look.check_eyes(view.stereo.is_some())?;
+    output = for_view(output, &view, create)?;
+    check_halves(&view, size)?;
+    let reference = Reference::new(Arc::new(setting.model)).map_err(|error| refused(source, error))?;
+    let sitting = reference.sitting(&view, [size.width, size.height], takes);
+    let start = Instant::now();
+    let never = AtomicBool::new(false);
+    let Some(picture) = sitting.render(&never, &|stage, fraction| bar.show(stage, fraction)) else {
+        return Ok(());
+    };
+    drop(bar);
+    let seconds = start.elapsed().as_secs_f64();
+    let effort = Effort::new(&picture);
+    let seen = if aovs.is_empty() {
+        Seen::default()
+    } else {
+        sitting.seen()
+    };
+    let written = output.save(picture, seen, &view.tone)?;
+    eprintln!(
+        "{}: {} x {} pixels, {} each, {}, in double precision, {seconds:.3} s",
+        pictures(&written),
+        size.width,
+        size.height,
+        counted(sitting.sample_count(), "sample"),
+        counted(reference.model().mesh.triangles.len(), "triangle"),
+    );
+    describe(&written);
+    eprintln!("{}", told(&effort, seconds));
+    Ok(())
+}

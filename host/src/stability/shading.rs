@@ -1,0 +1,273 @@
+//! Where shading fails: at normals that are not those of the triangle, at edges of shadows, in glass.
+
+use super::aim::{Aim, at};
+use super::cases::{About, Row, Test, judged};
+use super::exhibits::optics;
+use super::meshes::{of_pairs, sphere, tilted};
+use super::report::{Role, RowReport};
+use super::surface_case::{Case, cases, middle, on_ball, shaded, through};
+use super::tally::{Failure, written};
+use super::{LabError, Plan};
+use crate::progress::silent;
+use crate::scene::Scene;
+use crate::structure::StructureOptions;
+use glam::Vec3;
+use oktant_shared::medium::Media;
+use oktant_shared::optics::{reflected, refracted};
+use oktant_shared::ray::Ray;
+use oktant_shared::traversal::{Standard, Traversal};
+use std::sync::Arc;
+
+const FAMILY: &str = "shading";
+
+/// All of them.
+pub const SHADING_ROWS: &[Row] = &[
+    Row {
+        id: "reflect-below",
+        run: |plan| {
+            let about = About {
+                id: "reflect-below",
+                family: FAMILY,
+                title: "rays that are reflected to below the surface",
+                input: "triangles whose normals are tilted away from the viewer, by up to the elevation at which the ray \
+                        comes",
+                remedy: "the normal is bent back until the reflected ray is above the triangle",
+                fails: &["normal as it is interpolated"],
+            };
+            let tests: &[Test<Case>] = &[
+                ("normal bent to the viewer", Role::Default, |case| {
+                    below(case, case.surface.normal)
+                }),
+                ("normal as it is interpolated", Role::Exhibit, |case| {
+                    below(case, case.normal)
+                }),
+            ];
+            on_triangles(plan, &about, tests, 0.0, 1.0)
+        },
+    },
+    Row {
+        id: "normal-away",
+        run: |plan| {
+            let about = About {
+                id: "normal-away",
+                family: FAMILY,
+                title: "normals that face away from the viewer",
+                input: "triangles whose normals are tilted away from the viewer, by more than the elevation at which the \
+                        ray comes",
+                remedy: "the triangle alone says which side is in front",
+                fails: &["side by the normal", "normal turned to the viewer"],
+            };
+            let tests: &[Test<Case>] = &[
+                ("side by the triangle", Role::Default, |case| {
+                    let is_right = case.surface.from_front && case.surface.normal.dot(Vec3::Z) > 0.0;
+                    (!is_right).then_some("false")
+                }),
+                ("side by the normal", Role::Exhibit, |case| {
+                    (case.normal.dot(case.ray.direction) > 0.0).then_some("false")
+                }),
+                ("normal turned to the viewer", Role::Exhibit, |case| {
+                    let turned = if case.normal.dot(case.ray.direction) > 0.0 {
+                        -case.normal
+                    } else {
+                        case.normal
+                    };
+                    (turned.dot(Vec3::Z) <= 0.0).then_some("false")
+                }),
+            ];
+            on_triangles(plan, &about, tests, 1.05, 2.0)
+        },
+    },
+    Row {
+        id: "terminator",
+        run: |plan| {
+            let about = About {
+                id: "terminator",
+                family: FAMILY,
+                title: "facets of a round thing in the shadow of themselves",
+                input: "a sphere of 8 stacks and 16 slices; lights at random that are above the horizon of the interpolated \
+                        normal, its sine above 0.02",
+                remedy: "shadow rays start on the rounder surface that the normals describe",
+                fails: &["from the triangle"],
+            };
+            let tests: &[Test<Case>] = &[
+                ("from the surface that the normals describe", Role::Default, |case| {
+                    let origin = case.surface.shadow_point + case.surface.side * case.surface.clearance;
+                    let shadow = Ray::new(origin, case.light);
+                    Standard::any_hit(&case.scene.view(), &shadow).then_some("false")
+                }),
+                ("from the triangle", Role::Exhibit, |case| {
+                    let is_behind = case.surface.side.dot(case.light) <= 0.0;
+                    let shadow = Ray::new(case.surface.front_origin(), case.light);
+                    (is_behind || Standard::any_hit(&case.scene.view(), &shadow)).then_some("false")
+                }),
+            ];
+            let mut cases = on_ball(plan.rays)?;
+            cases.retain(|case| case.normal.dot(case.light) > 0.02);
+            Ok(about.report(judged(&cases, tests, failure)))
+        },
+    },
+    Row {
+        id: "zero-normal",
+        run: |plan| {
+            let about = About {
+                id: "zero-normal",
+                family: FAMILY,
+                title: "normals that cancel",
+                input: "pairs of triangles back to back, whose normals sum up to zero at their common corners",
+                remedy: "below a length of 10^-10 the triangle's normal is taken",
+                fails: &["unit vector of zero"],
+            };
+            let tests: &[Test<Case>] = &[
+                ("triangle's normal", Role::Default, |case| {
+                    let is_unit = (case.surface.normal.length() - 1.0).abs() < 1e-5;
+                    (!is_unit).then_some("not finite")
+                }),
+                ("unit vector of zero", Role::Exhibit, |case| {
+                    (!case.normal.normalize().is_finite()).then_some("not finite")
+                }),
+            ];
+            let mesh = of_pairs(plan.rays.min(10_000));
+            let rays = (0..mesh.triangles.len() / 2).map(|pair| {
+                let target = middle(&mesh, 2 * pair);
+                at(target + Vec3::new(0.3, 0.2, 2.0), target)
+            });
+            let rays = rays.collect();
+            Ok(about.report(judged(&cases(mesh, rays)?, tests, failure)))
+        },
+    },
+    Row {
+        id: "power",
+        run: |plan| {
+            let about = About {
+                id: "power",
+                family: FAMILY,
+                title: "powers of numbers below zero in Phong's highlight",
+                input: "a sphere, lights at random, exponents of 0, 0.5, 1 and 20.5",
+                remedy: "the cosine is 0 to 1; an exponent of 0 means no highlight",
+                fails: &["power of the cosine as it is"],
+            };
+            let tests: &[Test<Case>] = &[
+                ("cosine from 0 to 1", Role::Default, |case| {
+                    (!shaded(case).is_finite()).then_some("not finite")
+                }),
+                ("power of the cosine as it is", Role::Exhibit, |case| {
+                    let cosine = reflected(case.ray.direction.normalize(), case.surface.normal).dot(case.light);
+                    (!cosine.powf(case.exponent).is_finite()).then_some("not finite")
+                }),
+            ];
+            Ok(about.report(judged(&on_ball(plan.rays)?, tests, failure)))
+        },
+    },
+    Row {
+        id: "total",
+        run: |plan| {
+            let about = About {
+                id: "total",
+                family: FAMILY,
+                title: "total reflection in glass",
+                input: "from an index of 1.5 into one of 1, at 30 to 60 degrees from the normal; the limit is at 41.8",
+                remedy: "total reflection is a branch, not the root of a number below zero",
+                fails: &["root of what is left"],
+            };
+            let tests: &[Test<(Vec3, Vec3)>] = &[
+                ("a branch", Role::Default, |(direction, normal)| {
+                    let refraction = refracted(*direction, *normal, 1.5, 1.0);
+                    let is_fair = refraction.total || (refraction.direction.length() - 1.0).abs() < 1e-5;
+                    (!is_fair).then_some("not finite")
+                }),
+                ("root of what is left", Role::Exhibit, |(direction, normal)| {
+                    (!optics::refracted(*direction, *normal, 1.5).is_finite()).then_some("not finite")
+                }),
+            ];
+            let ball = sphere(1.0, Vec3::ZERO);
+            let mut aim = Aim::new(&ball, 44);
+            let pairs: Vec<(Vec3, Vec3)> = std::iter::repeat_with(|| {
+                let normal = aim.unit();
+                let along = normal.cross(aim.unit()).normalize();
+                let angle = (45.0 + 15.0 * aim.signed()).to_radians();
+                ((along * angle.sin() - normal * angle.cos()).normalize(), normal)
+            })
+            .take(plan.rays)
+            .collect();
+            let failure = |(direction, normal): &(Vec3, Vec3)| Failure {
+                corners: vec![vec![normal.to_array()]],
+                ..Failure::of_ray(&Ray::new(-*direction, *direction))
+            };
+            Ok(about.report(judged(&pairs, tests, failure)))
+        },
+    },
+    Row {
+        id: "inside",
+        run: |plan| {
+            let about = About {
+                id: "inside",
+                family: FAMILY,
+                title: "whether a ray is inside of glass, behind corners that are hit twice",
+                input: "closed sphere of radius 1; from outside through its vertices to behind it",
+                remedy: "crossing a triangle against its normal enters, along it leaves; nothing is toggled",
+                fails: &["toggled at every crossing"],
+            };
+            let tests: &[Test<(Arc<Scene>, Ray)>] = &[
+                ("by the triangle's normal", Role::Default, |(scene, ray)| {
+                    (through(scene, *ray) != Media::AIR).then_some("false")
+                }),
+                ("toggled at every crossing", Role::Exhibit, |(scene, ray)| {
+                    (optics::crossings(scene, ray) % 2 == 1).then_some("false")
+                }),
+            ];
+            let mesh = sphere(1.0, Vec3::ZERO);
+            let scene = Arc::new(Scene::new(&mesh, &StructureOptions::default(), &silent)?);
+            let mut aim = Aim::new(&mesh, 45);
+            let rays = std::iter::repeat_with(|| {
+                let vertex = aim.vertex();
+                (scene.clone(), at(vertex * 3.0 + aim.unit() * 0.5, vertex))
+            });
+            // The exhibit tests all triangles.
+            let rays: Vec<_> = rays.take(plan.rays.min(2_000)).collect();
+            Ok(about.report(judged(&rays, tests, |(_, ray)| Failure::of_ray(ray))))
+        },
+    },
+];
+
+fn below(case: &Case, normal: Vec3) -> Option<&'static str> {
+    (reflected(case.ray.direction, normal).z <= 0.0).then_some("false")
+}
+
+/// Triangles in the plane z = 0, whose normals are tilted by `least` to `most` of the elevation at which a ray comes.
+fn on_triangles(
+    plan: &Plan,
+    about: &About,
+    tests: &[Test<Case>],
+    least: f32,
+    most: f32,
+) -> Result<RowReport, LabError> {
+    let mut random = fastrand::Rng::with_seed(41);
+    let (mut normals, mut directions) = (Vec::new(), Vec::new());
+    for _ in 0..plan.rays.min(100_000) {
+        let elevation = (5.0 + 35.0 * random.f32()).to_radians();
+        let tilt = elevation * (least + (most - least) * random.f32());
+        let (sin, cos) = (std::f32::consts::TAU * random.f32()).sin_cos();
+        let along = Vec3::new(cos, sin, 0.0);
+        directions.push(along * elevation.cos() - Vec3::Z * elevation.sin());
+        normals.push((along * tilt.sin() + Vec3::Z * tilt.cos()).normalize());
+    }
+    let mesh = tilted(&normals);
+    let rays = directions.iter().enumerate().map(|(id, direction)| {
+        let origin = middle(&mesh, id) - *direction * 3.0;
+        Ray::new(origin, *direction)
+    });
+    let rays = rays.collect();
+    Ok(about.report(judged(&cases(mesh, rays)?, tests, failure)))
+}
+
+fn failure(case: &Case) -> Failure {
+    Failure {
+        ray: Some(written(&case.ray)),
+        corners: vec![vec![
+            case.surface.side.to_array(),
+            case.normal.to_array(),
+            case.light.to_array(),
+        ]],
+        ..Failure::default()
+    }
+}

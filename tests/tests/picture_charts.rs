@@ -1,0 +1,78 @@
+#![cfg(test)]
+//! Charts of the error of pictures: what must be in them whatever the machine.
+
+use glam::uvec2;
+use oktant::bench::Device;
+use oktant::chart::{Figure, Plan, depth_error, image_error};
+use oktant::mesh_source::MeshSource;
+use oktant::progress::silent;
+use oktant::source::Source;
+use std::path::Path;
+
+fn plan(source: Source) -> Plan {
+    Plan {
+        meshes: vec![MeshSource::Balls],
+        sources: vec![source],
+        pictures: uvec2(24, 18),
+        devices: vec![Device::Cpu],
+        size: uvec2(8, 8),
+        rays: 1,
+        repeats: 1,
+        largest: 1000,
+        command: "a test".into(),
+    }
+}
+
+/// The values of a series in a panel, in the order in which they were measured.
+fn values(figure: &Figure, panel: &str, series: &str) -> Vec<f64> {
+    let records = figure.records.iter();
+    let own = records.filter(|record| record.panel == panel && record.series == series);
+    own.map(|record| record.y.drawn()).collect()
+}
+
+#[test]
+fn more_samples_leave_less_error() {
+    let figures = image_error(&plan(Source::Mesh(MeshSource::Balls)), &silent).unwrap();
+    for figure in figures {
+        assert_eq!(figure.series(), ["regular grid", "rotated grid", "R2 sequence"]);
+        assert_eq!(figure.records.iter().filter(|record| record.is_marked).count(), 1);
+        assert!(figure.records.iter().all(|record| record.x > 0.0));
+        let errors = figure
+            .series()
+            .into_iter()
+            .map(|series| values(&figure, "balls", series));
+        let errors: Vec<_> = errors.collect();
+        for errors in &errors {
+            assert_eq!(errors.len(), 4);
+            assert!(
+                errors[3] < 0.3 * errors[0] && errors[3] > 0.0,
+                "{}: {errors:?}",
+                figure.stem
+            );
+            // One sample lies in the middle, whatever the pattern.
+            assert_eq!(errors[0], values(&figure, "balls", "regular grid")[0]);
+        }
+    }
+}
+
+#[test]
+fn deeper_trees_and_lower_cutoffs_leave_less_error() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/scenes/mirrors.toml");
+    let figure = depth_error(&plan(Source::Scene(path)), &silent).unwrap();
+    let by = |what: &str| values(&figure, &format!("RMSE of the light by {what}"), "mirrors");
+    let depths = by("depth");
+    assert_eq!(depths.len(), 17);
+    assert!(depths[0] > 10.0 * depths[3] && depths[3] > depths[16], "{depths:?}");
+    // From 1/2 downwards.
+    let cutoffs = by("cut-off");
+    assert_eq!(cutoffs.len(), 16);
+    assert!(
+        cutoffs[0] > 5.0 * cutoffs[8] && cutoffs[8] >= cutoffs[15],
+        "{cutoffs:?}"
+    );
+    assert_eq!(
+        figure.records.iter().filter(|record| record.is_marked).count(),
+        6,
+        "two defaults, three values each"
+    );
+}
