@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::{DVec3, Vec2, Vec3};
+use oktant_shared::triangle::Triangle;
 use rayon::prelude::*;
 
 /// Indexed triangles with optional normals, colours and texture coordinates per vertex.
@@ -26,6 +27,19 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// A triangle as the kernel reads it.
+    pub fn triangle(&self, id: u32) -> Triangle {
+        let [a, b, c] = self.triangles[id as usize];
+        Triangle {
+            a: self.positions[a as usize],
+            vertex_a: a,
+            b: self.positions[b as usize],
+            vertex_b: b,
+            c: self.positions[c as usize],
+            vertex_c: c,
+        }
+    }
+
     /// Smallest and largest coordinates of the vertices that triangles use; `None` without triangles.
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
         self.triangles

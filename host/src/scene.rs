@@ -137,26 +137,6 @@ impl Scene {
             // Materials that ask for either are given neither.
             Vec::new()
         };
-        let mut triangles: Vec<Triangle> = structure
-            .ids
-            .par_iter()
-            .map(|id| {
-                let [a, b, c] = mesh.triangles[*id as usize];
-                Triangle {
-                    a: mesh.positions[a as usize],
-                    vertex_a: a,
-                    b: mesh.positions[b as usize],
-                    vertex_b: b,
-                    c: mesh.positions[c as usize],
-                    vertex_c: c,
-                }
-            })
-            .collect();
-        for slot in &structure.buried {
-            // Without area, it is hit by nothing.
-            let triangle = &mut triangles[*slot as usize];
-            (triangle.b, triangle.c) = (triangle.a, triangle.a);
-        }
         let material_ids: Vec<u32> = if model.material_ids.is_empty() {
             Vec::new()
         } else {
@@ -166,7 +146,7 @@ impl Scene {
                 .map(|id| model.material_ids[*id as usize])
                 .collect()
         };
-        let bounds = mesh.bounds();
+        let bounds = structure.bounds.or_else(|| mesh.bounds());
         let (low, high) = bounds.unwrap_or_default();
         let focus = model.focus.unwrap_or(Focus {
             center: (low + high) / 2.0,
@@ -189,7 +169,7 @@ impl Scene {
             root: structure.root,
             nodes: structure.nodes,
             references: never_empty(structure.references),
-            triangles: never_empty(triangles),
+            triangles: never_empty(structure.triangles),
             ids: never_empty(structure.ids),
             vertices: never_empty(vertices),
             coordinates: never_empty(model.mesh.coordinates),

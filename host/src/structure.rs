@@ -12,13 +12,15 @@ use crate::build_error::BuildError;
 use crate::grid::{Grid, GridOptions};
 use crate::hittable::Hittable;
 use crate::mesh::Mesh;
-use crate::octree::{Octree, OctreeOptions, duplicates, root};
+use crate::octree::{Octree, OctreeOptions, root};
 use crate::progress::Progress;
-use crate::tree::{BinaryTree, BuildPreset, CollapseOptions, WideNode};
+use crate::tree::{BinaryTree, BuildPreset, CellTree, CollapseOptions, MortonOrder, WideNode, zeroed};
 use glam::{UVec3, UVec4, Vec3, uvec4};
 use oktant_shared::grid::Raster;
 use oktant_shared::octree::{Node, Root};
 use oktant_shared::parts::{Parts, TraversalKind};
+use oktant_shared::triangle::Triangle;
+use rayon::prelude::*;
 
 /// Which structure to build, and how.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -57,15 +59,16 @@ pub struct Structure {
     pub nodes: Vec<UVec4>,
     /// Slots of triangles, leaf by leaf; empty where each triangle is in one leaf.
     pub references: Vec<u32>,
+    /// The triangles by slot. Those that no ray is to hit, for they lie exactly on one with a lower id, have no area.
+    pub triangles: Vec<Triangle>,
     /// The triangles' ids by slot.
     pub ids: Vec<u32>,
-    /// Slots of triangles that no ray is to hit, for they lie exactly on one with a lower id: which of the two is nearer
-    /// would be a matter of rounding.
-    pub buried: Vec<u32>,
     /// Triangles left out because they have no area.
     pub degenerate: u32,
     /// Triangles left out because they lie exactly on one with a lower id.
     pub duplicates: u32,
+    /// [`Mesh::bounds`], where the build came by them.
+    pub bounds: Option<(Vec3, Vec3)>,
 }
 
 impl Structure {
@@ -77,49 +80,20 @@ impl Structure {
         match options.parts.traversal {
             TraversalKind::Octree => {
                 let octree = Octree::build(mesh, &options.octree, progress)?;
+                let ids: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
                 Ok(Structure {
                     traversal: options.parts.traversal,
                     root: octree.root,
                     nodes: in_pairs(&octree.nodes),
                     references: octree.references,
-                    ids: (0..mesh.triangles.len() as u32).collect(),
-                    buried: Vec::new(),
+                    triangles: rows(mesh, &ids),
+                    ids,
                     degenerate: octree.degenerate,
                     duplicates: octree.duplicates,
+                    bounds: None,
                 })
             }
-            TraversalKind::Octants => {
-                let tree = BinaryTree::build(mesh, options.preset, progress)?;
-                let (low, high) = (tree.nodes[0].low, tree.nodes[0].high);
-                let blank = [UVec4::ZERO; oktant_shared::octants::NODE_VECTORS as usize];
-                let margin = octants::margin(&root(low, high, 0)?);
-                let encode = |node: &WideNode| octants::words(node, margin);
-                let wide = tree.to_wide(&CollapseOptions::of(options.preset), blank, encode);
-                let nodes = bytemuck::allocation::cast_vec(wide.nodes);
-                Self::of_tree(
-                    options.parts.traversal,
-                    low,
-                    high,
-                    nodes,
-                    wide.order,
-                    tree.degenerate,
-                    mesh,
-                )
-            }
-            TraversalKind::Bvh2 => {
-                let tree = BinaryTree::build(mesh, options.preset, progress)?;
-                let (low, high) = (tree.nodes[0].low, tree.nodes[0].high);
-                let nodes = bvh2::words(&tree);
-                Self::of_tree(
-                    options.parts.traversal,
-                    low,
-                    high,
-                    nodes,
-                    tree.order,
-                    tree.degenerate,
-                    mesh,
-                )
-            }
+            TraversalKind::Octants | TraversalKind::Bvh2 => Self::of_boxes(mesh, options, progress),
             TraversalKind::Grid => {
                 let grid = Grid::build(mesh, &options.grid, progress)?;
                 let mut nodes = grid.raster.words().to_vec();
@@ -129,10 +103,11 @@ impl Structure {
                     root: grid.root,
                     nodes,
                     references: grid.references,
+                    triangles: rows(mesh, &grid.ids),
                     ids: grid.ids,
-                    buried: Vec::new(),
                     degenerate: grid.degenerate,
                     duplicates: grid.duplicates,
+                    bounds: None,
                 })
             }
             TraversalKind::Brute => {
@@ -142,25 +117,48 @@ impl Structure {
                     root: root(hittable.low, hittable.high, 0)?,
                     nodes: vec![uvec4(hittable.ids.len() as u32, 0, 0, 0)],
                     references: Vec::new(),
+                    triangles: rows(mesh, &hittable.ids),
                     ids: hittable.ids,
-                    buried: Vec::new(),
                     degenerate: hittable.degenerate,
                     duplicates: hittable.duplicates,
+                    bounds: None,
                 })
             }
         }
     }
 
-    fn of_tree(
-        traversal: TraversalKind,
-        low: Vec3,
-        high: Vec3,
-        nodes: Vec<UVec4>,
-        ids: Vec<u32>,
-        degenerate: u32,
-        mesh: &Mesh,
-    ) -> Result<Self, BuildError> {
-        let buried = duplicates(mesh, &ids);
+    /// A tree of tight boxes.
+    fn of_boxes(mesh: &Mesh, options: &StructureOptions, progress: Progress<'_>) -> Result<Self, BuildError> {
+        let traversal = options.parts.traversal;
+        let order = MortonOrder::new(mesh)?;
+        let (low, high) = (order.low, order.high);
+        let cube = root(low, high, 0)?;
+        let margin = octants::margin(&cube);
+        let encode = |node: &WideNode| octants::words(node, margin);
+        let (nodes, ids, mut triangles) = if traversal == TraversalKind::Bvh2 {
+            let tree = BinaryTree::of(&order, mesh, options.preset, progress);
+            let triangles = rows(mesh, &tree.order);
+            (bvh2::words(&tree), tree.order, triangles)
+        } else if options.preset == BuildPreset::Fast {
+            let cells = CellTree::build(&order, mesh, encode, octants::move_children, progress);
+            (bytemuck::allocation::cast_vec(cells.nodes), cells.ids, cells.triangles)
+        } else {
+            let tree = BinaryTree::of(&order, mesh, options.preset, progress);
+            let wide = tree.to_wide(&CollapseOptions::of(options.preset), encode);
+            let triangles = rows(mesh, &wide.order);
+            (bytemuck::allocation::cast_vec(wide.nodes), wide.order, triangles)
+        };
+        let duplicates = order.duplicates(mesh);
+        if !duplicates.is_empty() {
+            // Which of two triangles at the same place is nearer would be a matter of rounding. Without area, it is hit by
+            // nothing.
+            let pairs = triangles.par_iter_mut().zip(&ids).with_min_len(ROWS);
+            pairs.for_each(|(triangle, id)| {
+                if duplicates.binary_search(id).is_ok() {
+                    (triangle.b, triangle.c) = (triangle.a, triangle.a);
+                }
+            });
+        }
         // As much room as the octree's cube has: for rays from so far away that f32 does not tell where they pass.
         let room = Vec3::splat((high - low).max_element() / 64.0);
         Ok(Structure {
@@ -168,14 +166,15 @@ impl Structure {
             root: Root {
                 low: low - room,
                 high: high + room,
-                ..root(low, high, 0)?
+                ..cube
             },
             nodes,
             references: Vec::new(),
+            triangles,
             ids,
-            degenerate,
-            duplicates: buried.len() as u32,
-            buried,
+            degenerate: order.degenerate,
+            duplicates: duplicates.len() as u32,
+            bounds: (order.degenerate == 0).then_some((low, high)),
         })
     }
 
@@ -206,12 +205,24 @@ impl Structure {
             root,
             nodes,
             references: Vec::new(),
+            triangles: Vec::new(),
             ids: Vec::new(),
-            buried: Vec::new(),
             degenerate: 0,
             duplicates: 0,
+            bounds: None,
         }
     }
+}
+
+/// Triangles that are worth a thread.
+const ROWS: usize = 1 << 13;
+
+/// The triangles of some ids.
+fn rows(mesh: &Mesh, ids: &[u32]) -> Vec<Triangle> {
+    let mut triangles: Vec<Triangle> = zeroed(ids.len());
+    let pairs = triangles.par_iter_mut().zip(ids).with_min_len(ROWS);
+    pairs.for_each(|(triangle, id)| *triangle = mesh.triangle(*id));
+    triangles
 }
 
 /// Nodes two by two in words; an odd one is followed by an empty leaf.

@@ -3,6 +3,7 @@
 
 mod binary;
 mod bins;
+mod cells;
 mod collapse;
 mod emission;
 mod items;
@@ -20,10 +21,12 @@ mod split;
 mod wide;
 
 pub use binary::{BinaryNode, BinaryTree, MAX_BINARY_DEPTH};
+pub use cells::CellTree;
 pub use collapse::CollapseOptions;
 pub use emission::WideArrays;
 pub use metrics::{BinaryFigures, Costs, WideFigures};
-pub use pages::Pages;
+pub use morton::MortonOrder;
+pub use pages::zeroed;
 pub use slots::Placing;
 pub use wide::{MAX_LEAF, WIDTH, WideChild, WideNode, WideTree};
 

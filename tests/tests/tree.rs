@@ -5,9 +5,13 @@
 use glam::Vec3;
 use oktant::build_error::BuildError;
 use oktant::mesh::Mesh;
+use oktant::model::Model;
 use oktant::progress::silent;
+use oktant::scene::Scene;
 use oktant::shapes::stadium;
-use oktant::tree::{BinaryTree, BuildPreset, CollapseOptions, MAX_BINARY_DEPTH, MAX_LEAF, WideTree};
+use oktant::structure::StructureOptions;
+use oktant::tree::{BinaryTree, BuildPreset, CollapseOptions, Costs, MAX_BINARY_DEPTH, MAX_LEAF, WideTree};
+use oktant_shared::octants::MAX_LEVEL;
 use oktant_tests::data::reference;
 use oktant_tests::meshes;
 use rayon::ThreadPoolBuilder;
@@ -90,6 +94,9 @@ fn every_preset_builds_valid_trees_of_hard_meshes() {
                 wide.validate(&mesh, MAX_BINARY_DEPTH)
                     .unwrap_or_else(|error| panic!("{name} {preset:?}: {error}"));
             }
+            let wide = WideTree::build(&mesh, preset, &silent).unwrap();
+            wide.validate(&mesh, MAX_LEVEL)
+                .unwrap_or_else(|error| panic!("{name} {preset:?}: {error}"));
         }
     }
 }
@@ -118,7 +125,7 @@ fn presets_are_in_the_order_of_their_costs() {
     for (name, mesh) in [("room", meshes::room()), ("icosphere", meshes::icosphere(6))] {
         let options = CollapseOptions::default();
         let [fast, balanced, quality] = BuildPreset::ALL.map(|preset| {
-            let tree = WideTree::build(&mesh, preset, &options, &silent).unwrap();
+            let tree = WideTree::build(&mesh, preset, &silent).unwrap();
             tree.figures(&options.costs).cost
         });
         println!("{name}: {fast} {balanced} {quality}");
@@ -136,7 +143,7 @@ fn the_number_of_threads_changes_nothing() {
             let build = |threads| {
                 with_threads(threads, || {
                     let binary = BinaryTree::build(&mesh, preset, &silent).unwrap();
-                    (WideTree::of(&binary, &CollapseOptions::default()), binary)
+                    (WideTree::build(&mesh, preset, &silent).unwrap(), binary)
                 })
             };
             let (wide, binary) = build(1);
@@ -181,8 +188,8 @@ fn builds_are_measured() {
     let dragon = load("meshes/dragon-871k.ply");
     let finer = finer(&dragon);
     println!(
-        "mesh, preset, threads; ms = binary tree + wide tree; cost of the wide and the binary tree; wide nodes; levels of \
-         the wide and the binary tree; children a node; triangles a leaf; bytes a triangle"
+        "mesh, preset, threads; ms from mesh to scene, median and least; cost; nodes; levels; children a node; triangles a \
+         leaf; bytes a triangle"
     );
     for (name, mesh) in [
         ("bunny", load("meshes/bunny-69k.ply")),
@@ -190,45 +197,38 @@ fn builds_are_measured() {
         ("finer", finer),
     ] {
         for preset in BuildPreset::ALL {
+            let options = StructureOptions {
+                preset,
+                ..StructureOptions::default()
+            };
+            let mut bytes = 0;
             for threads in [1, 2] {
-                let options = CollapseOptions::default();
-                let times = (0..5).map(|_| {
-                    with_threads(threads, || {
-                        let start = Instant::now();
-                        let binary = BinaryTree::build(&mesh, preset, &silent).unwrap();
-                        let middle = Instant::now();
-                        // Nodes of the size that kernels read.
-                        let arrays = binary.to_wide(&options, [0_u32; 20], |node| {
-                            let mut words = [0; 20];
-                            for (word, low) in words.iter_mut().zip(node.low.as_flattened()) {
-                                *word = low.to_bits();
-                            }
-                            words
-                        });
-                        assert_eq!(arrays.order.len(), binary.order.len());
-                        (start.elapsed(), middle - start)
+                let mut times: Vec<f64> = (0..7)
+                    .map(|_| {
+                        let model = Model::of_mesh(mesh.clone());
+                        with_threads(threads, || {
+                            let start = Instant::now();
+                            let scene = Scene::of_model(model, &options, &silent).unwrap();
+                            let time = start.elapsed().as_secs_f64();
+                            bytes = scene.structure_bytes() + size_of_val(scene.triangles.as_slice());
+                            time
+                        })
                     })
-                });
-                let (total, first) = times.min().unwrap();
-                let binary = BinaryTree::build(&mesh, preset, &silent).unwrap();
-                binary.validate(&mesh).unwrap();
-                let wide = WideTree::of(&binary, &options);
-                wide.validate(&mesh, MAX_BINARY_DEPTH).unwrap();
-                let (narrow, figures) = (binary.figures(&options.costs), wide.figures(&options.costs));
+                    .collect();
+                times.sort_by(f64::total_cmp);
+                let wide = WideTree::build(&mesh, preset, &silent).unwrap();
+                let figures = wide.figures(&Costs::default());
                 println!(
-                    "{name:8} {:9} {threads} {:8.1} = {:6.1} + {:6.1} {:7.2} {:7.2} {:8} {:3} ({:2}) {:5.2} {:5.2} {:5.1}",
+                    "{name:8} {:9} {threads} {:8.1} {:8.1} {:7.2} {:8} {:3} {:5.2} {:5.2} {:5.1}",
                     preset.name(),
-                    1e3 * total.as_secs_f64(),
-                    1e3 * first.as_secs_f64(),
-                    1e3 * (total - first).as_secs_f64(),
+                    1e3 * times[times.len() / 2],
+                    1e3 * times[0],
                     figures.cost,
-                    narrow.cost,
                     figures.nodes,
                     figures.depth,
-                    narrow.depth,
                     figures.children,
                     figures.triangles,
-                    80.0 * figures.nodes as f64 / mesh.triangles.len() as f64 + 52.0,
+                    bytes as f64 / mesh.triangles.len() as f64,
                 );
             }
         }

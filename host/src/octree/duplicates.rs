@@ -16,12 +16,11 @@ pub(crate) struct Distinct {
     pub duplicates: u32,
 }
 
-/// The slots of triangles that lie exactly on one with a lower id; `ids` are the triangles' by slot.
+/// Where among some ids those of triangles are that lie exactly on one with a lower id.
 pub(crate) fn duplicates(mesh: &Mesh, ids: &[u32]) -> Vec<u32> {
-    let of_corners: Vec<u32> = mesh.positions.par_iter().with_min_len(BLOCK).map(hash).collect();
     // The same in whatever order the corners come.
     let hash = |id: u32| {
-        let [a, b, c] = mesh.triangles[id as usize].map(|index| of_corners[index as usize]);
+        let [a, b, c] = mesh.triangles[id as usize].map(|index| hash(&mesh.positions[index as usize]));
         a.wrapping_add(b).wrapping_add(c).wrapping_mul(0x9e37_79b1)
     };
     let hashes: Vec<u32> = ids.par_iter().with_min_len(BLOCK).map(|id| hash(*id)).collect();
@@ -84,8 +83,18 @@ pub(crate) fn distinct(mesh: &Mesh, corners: &[[Vec3; 3]]) -> Distinct {
     }
 }
 
+/// A product of edges, in parts of their sizes, that no rounding in single precision can make of zero.
+const SURE: f32 = 1e-4;
+
 /// Whether a ray can hit the triangle at all: edges that f32 holds have an exact enough product in f64.
+#[inline]
 pub(crate) fn has_area(corners: &[Vec3; 3]) -> bool {
+    // Plain where single precision is sure: its edges are right to the last bit, their product to a few.
+    let (ab, ac) = (corners[1] - corners[0], corners[2] - corners[0]);
+    let size = ab.abs().max_element() * ac.abs().max_element();
+    if ab.cross(ac).abs().max_element() > SURE * size && size > f32::MIN_POSITIVE / SURE {
+        return true;
+    }
     let [a, b, c] = corners.map(|corner| corner.as_dvec3());
     (b - a).cross(c - a).length_squared() > 0.0
 }

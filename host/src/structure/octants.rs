@@ -83,6 +83,11 @@ pub(super) fn words(node: &WideNode, margin: f32) -> [UVec4; NODE_VECTORS as usi
     ]
 }
 
+/// Adds to the index of a node's first child that is a node.
+pub(super) fn move_children(node: &mut [UVec4; NODE_VECTORS as usize], by: u32) {
+    node[1].x += by;
+}
+
 /// The raster of a node along an axis, from its low corner.
 struct Raster {
     corner: f64,

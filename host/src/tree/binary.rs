@@ -1,7 +1,6 @@
 //! The binary tree.
 
-use super::items::Items;
-use super::pages::Pages;
+use super::morton::MortonOrder;
 use super::{BuildPreset, InvalidTree, each_once, preset};
 use crate::build_error::BuildError;
 use crate::mesh::Mesh;
@@ -48,7 +47,7 @@ impl BinaryNode {
 #[derive(Debug)]
 pub struct BinaryTree {
     /// The nodes, the root first.
-    pub nodes: Pages<BinaryNode>,
+    pub nodes: Vec<BinaryNode>,
     /// The triangle in each slot.
     pub order: Vec<u32>,
     /// Triangles left out because they have no area.
@@ -61,14 +60,17 @@ impl BinaryTree {
     /// # Errors
     /// [`BuildError`] where the mesh has nothing to build it from.
     pub fn build(mesh: &Mesh, preset: BuildPreset, progress: Progress<'_>) -> Result<Self, BuildError> {
-        let items = Items::of(mesh)?;
-        let degenerate = items.degenerate;
-        let (nodes, order) = preset::build(preset, items, progress);
-        Ok(BinaryTree {
+        Ok(Self::of(&MortonOrder::new(mesh)?, mesh, preset, progress))
+    }
+
+    /// Builds the tree of a mesh whose triangles are sorted.
+    pub fn of(sorted: &MortonOrder, mesh: &Mesh, preset: BuildPreset, progress: Progress<'_>) -> Self {
+        let (nodes, order) = preset::build(preset, sorted, mesh, progress);
+        BinaryTree {
             nodes,
             order,
-            degenerate,
-        })
+            degenerate: sorted.degenerate,
+        }
     }
 
     /// Checks the rules of the layout, and that each of so many triangles is in the tree once or was left out.

@@ -72,7 +72,7 @@ impl<const BINS: usize> Bins<BINS> {
         for item in items {
             for (axis, bin) in binning.of(item).into_iter().enumerate() {
                 all.bounds[axis][bin] = all.bounds[axis][bin].with(item.low(), item.high());
-                all.counts[axis][bin] += 1;
+                all.counts[axis][bin] += item.count();
             }
         }
         all

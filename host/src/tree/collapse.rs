@@ -3,7 +3,7 @@
 use super::BuildPreset;
 use super::binary::{BinaryNode, BinaryTree};
 use super::metrics::Costs;
-use super::pages::Pages;
+use super::pages::zeroed;
 use super::slots::Placing;
 use super::wide::{MAX_LEAF, WIDTH};
 use bytemuck::{Pod, Zeroable};
@@ -94,7 +94,7 @@ impl Table {
 }
 
 /// The decisions for all nodes of a tree.
-pub(super) struct Decisions(Pages<Decision>);
+pub(super) struct Decisions(Vec<Decision>);
 
 impl Decisions {
     /// What is made of a node.
@@ -114,7 +114,7 @@ impl Decisions {
 /// Ylitie, Karras and Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", 2017, section
 /// 3: C(n, i), bottom-up.
 pub(super) fn decide(tree: &BinaryTree, options: &CollapseOptions) -> Decisions {
-    let mut decisions = Pages::<Decision>::zeroed(tree.nodes.len() / 2);
+    let mut decisions = zeroed(tree.nodes.len() / 2);
     let optimiser = Optimiser {
         nodes: &tree.nodes,
         leaf: options.leaf.clamp(1, MAX_LEAF),

@@ -2,8 +2,11 @@
 
 use super::binary::BinaryTree;
 use super::collapse::{CollapseOptions, Decisions, children, decide};
+use super::pages::zeroed;
 use super::slots::{Placing, place};
 use super::wide::{WIDTH, WideChild, WideNode};
+use bytemuck::Zeroable;
+use glam::Vec3;
 
 /// The arrays of a wide tree whose nodes are of any form.
 #[derive(Clone, Debug)]
@@ -16,17 +19,16 @@ pub struct WideArrays<N> {
 }
 
 impl BinaryTree {
-    /// Makes a wide tree of it whose nodes are what `encode` makes of each; `blank` is any value.
-    pub fn to_wide<N: Clone + Send>(
+    /// Makes a wide tree of it whose nodes are what `encode` makes of each.
+    pub fn to_wide<N: Zeroable + Send>(
         &self,
         options: &CollapseOptions,
-        blank: N,
         encode: impl Fn(&WideNode) -> N + Sync,
     ) -> WideArrays<N> {
         let decisions = decide(self, options);
         let count = decisions.of(&self.nodes[0]).nodes.max(1) as usize;
-        let mut nodes = vec![blank; count];
-        let mut order = vec![0; self.order.len()];
+        let mut nodes = zeroed(count);
+        let mut order = zeroed(self.order.len());
         let (root, below) = nodes.split_at_mut(1);
         let writer = Writer {
             tree: self,
@@ -140,7 +142,12 @@ impl<E> Writer<'_, E> {
         children(binary, decisions, index, &mut |child| all.push(child));
         let parent = &binary[index as usize];
         let found = &all.indices[..all.count];
-        let slots = place(self.placing, parent, found, binary);
+        let mut centres = [Vec3::ZERO; WIDTH];
+        for (centre, child) in centres.iter_mut().zip(found) {
+            let child = &binary[*child as usize];
+            *centre = child.low + child.high;
+        }
+        let slots = place(self.placing, parent.low + parent.high, &centres[..found.len()]);
         let mut wide = WideNode {
             first_node,
             first_triangle,

@@ -1,37 +1,42 @@
 //! The tree of sorted Morton codes: octants, halved along one axis after the other.
 
 use super::binary::BinaryNode;
-use super::items::Items;
+use super::items::Item;
 use super::morton::MortonOrder;
 use super::place::{PARALLEL, Place};
 use super::sah::few;
 use super::split::TRIALS;
 use std::ops::Range;
 
-/// Bits of a code an axis, if they fit.
-const BITS: u32 = 14;
-
 /// Builds the tree over all items in its place.
-pub(super) fn build(items: Items, report: &(dyn Fn(usize) + Sync), place: Place<'_>) -> BinaryNode {
-    let sorted = MortonOrder::new(items, BITS);
-    cell(&sorted, report, 0..sorted.len(), place)
+pub(super) fn build(
+    sorted: &MortonOrder,
+    items: &[Item],
+    report: &(dyn Fn(usize) + Sync),
+    place: Place<'_>,
+) -> BinaryNode {
+    cell(sorted, items, report, 0..sorted.len(), place)
 }
 
 /// The subtree over a range of items. No deeper than a code and an index have bits: those of one code are halved.
-fn cell(sorted: &MortonOrder, report: &(dyn Fn(usize) + Sync), range: Range<usize>, place: Place<'_>) -> BinaryNode {
+fn cell(
+    sorted: &MortonOrder,
+    items: &[Item],
+    report: &(dyn Fn(usize) + Sync),
+    range: Range<usize>,
+    place: Place<'_>,
+) -> BinaryNode {
     let count = range.len();
     if count <= TRIALS {
         // The best subtree over a few costs no more than any.
-        let mut items = [sorted.item(range.start); TRIALS];
-        for (item, place) in items.iter_mut().zip(range).skip(1) {
-            *item = sorted.item(place);
-        }
-        return few(&mut items[..count], place);
+        let mut few_items = [items[range.start]; TRIALS];
+        few_items[..count].copy_from_slice(&items[range]);
+        return few(&mut few_items[..count], place);
     }
-    let middle = sorted.middle(range.clone()).unwrap_or(range.start + count / 2);
+    let middle = sorted.middle(range.clone());
     let (pair, first, second) = place.split(middle - range.start);
-    let first = || cell(sorted, report, range.start..middle, first);
-    let second = || cell(sorted, report, middle..range.end, second);
+    let first = || cell(sorted, items, report, range.start..middle, first);
+    let second = || cell(sorted, items, report, middle..range.end, second);
     if count < PARALLEL {
         return pair.fill((first(), second()));
     }

@@ -1,66 +1,28 @@
 //! Large arrays that begin as zeros.
 
-use bytemuck::Pod;
-use memmap2::MmapMut;
-use std::fmt;
-use std::ops::{Deref, DerefMut};
+use bytemuck::Zeroable;
 
-/// A large array. The system is asked for huge pages, which it is much quicker to hand out: a build touches all of its
-/// arrays for the first time.
-pub struct Pages<T> {
-    memory: Memory<T>,
-    length: usize,
+/// So many zeros. The system is asked for huge pages, which it is much quicker to hand out: a build touches all of its
+/// arrays for the first time, each part in the thread that fills it.
+pub fn zeroed<T: Zeroable>(length: usize) -> Vec<T> {
+    let mut all = bytemuck::zeroed_vec(length);
+    in_huge_pages(&mut all);
+    all
 }
 
-enum Memory<T> {
-    Map(MmapMut),
-    /// Where the system maps nothing.
-    Vec(Vec<T>),
-}
-
-impl<T: Pod> Pages<T> {
-    /// So many zeros.
-    pub fn zeroed(length: usize) -> Self {
-        let memory = MmapMut::map_anon((length * size_of::<T>()).max(1)).map_or_else(
-            |_| Memory::Vec(bytemuck::zeroed_vec(length)),
-            |map| {
-                #[cfg(target_os = "linux")]
-                // Refused, the pages are small.
-                let _ = map.advise(memmap2::Advice::HugePage);
-                Memory::Map(map)
-            },
-        );
-        Pages { memory, length }
-    }
-
-    /// Leaves out all from `length` on.
-    pub fn truncate(&mut self, length: usize) {
-        self.length = self.length.min(length);
+#[cfg(target_os = "linux")]
+fn in_huge_pages<T>(all: &mut [T]) {
+    use rustix::mm::{Advice, madvise};
+    const PAGE: usize = 1 << 21;
+    let bytes = all.as_mut_ptr_range();
+    let first = (bytes.start as usize).next_multiple_of(PAGE);
+    let end = bytes.end as usize / PAGE * PAGE;
+    if first < end {
+        // SAFETY: The pages lie within the array, and which pages they are in changes nothing of it. Refused, they are
+        // small.
+        let _ = unsafe { madvise(first as *mut core::ffi::c_void, end - first, Advice::LinuxHugepage) };
     }
 }
 
-impl<T: Pod> Deref for Pages<T> {
-    type Target = [T];
-
-    fn deref(&self) -> &[T] {
-        match &self.memory {
-            Memory::Map(map) => bytemuck::cast_slice(&map[..self.length * size_of::<T>()]),
-            Memory::Vec(all) => &all[..self.length],
-        }
-    }
-}
-
-impl<T: Pod> DerefMut for Pages<T> {
-    fn deref_mut(&mut self) -> &mut [T] {
-        match &mut self.memory {
-            Memory::Map(map) => bytemuck::cast_slice_mut(&mut map[..self.length * size_of::<T>()]),
-            Memory::Vec(all) => &mut all[..self.length],
-        }
-    }
-}
-
-impl<T: Pod + fmt::Debug> fmt::Debug for Pages<T> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_list().entries(self.iter()).finish()
-    }
-}
+#[cfg(not(target_os = "linux"))]
+fn in_huge_pages<T>(_: &mut [T]) {}

@@ -38,6 +38,11 @@ impl<'a> Place<'a> {
         }
     }
 
+    /// Triangles of the subtree.
+    pub fn triangles(&self) -> usize {
+        self.order.len()
+    }
+
     /// The places of two children, and below each, the first with so many triangles.
     #[inline]
     pub fn split(self, triangles: usize) -> (Pair<'a>, Place<'a>, Place<'a>) {

@@ -1,5 +1,6 @@
 //! A parallel radix sort.
 
+use super::pages::zeroed;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
@@ -17,18 +18,18 @@ pub(super) fn sorted(mut words: Vec<u64>, low: u32, bits: u32) -> Vec<u64> {
         words.sort_unstable();
         return words;
     }
+    let mut words: Vec<AtomicU64> = words.into_iter().map(AtomicU64::new).collect();
     let chunk = words.len().div_ceil(rayon::current_num_threads()).max(LEAST);
-    let mut other: Vec<AtomicU64> = Vec::new();
-    other.resize_with(words.len(), AtomicU64::default);
+    let mut other: Vec<AtomicU64> = zeroed(words.len());
     let mut shift = low;
     while shift < low + bits {
         let width = DIGIT.min(low + bits - shift);
-        let digit = |word: u64| (word >> shift) as usize & ((1 << width) - 1);
+        let digit = |word: &AtomicU64| (word.load(Relaxed) >> shift) as usize & ((1 << width) - 1);
         let mut places: Vec<Vec<u32>> = words
             .par_chunks(chunk)
             .map(|words| {
                 let mut counts = vec![0; 1 << DIGIT];
-                for &word in words {
+                for word in words {
                     counts[digit(word)] += 1;
                 }
                 counts
@@ -43,20 +44,16 @@ pub(super) fn sorted(mut words: Vec<u64>, low: u32, bits: u32) -> Vec<u64> {
             }
         }
         words.par_chunks(chunk).zip(&mut places).for_each(|(words, places)| {
-            for &word in words {
+            for word in words {
                 let place = &mut places[digit(word)];
-                other[*place as usize].store(word, Relaxed);
+                other[*place as usize].store(word.load(Relaxed), Relaxed);
                 *place += 1;
             }
         });
-        let sorted = other.into_iter().map(AtomicU64::into_inner).collect();
-        other = std::mem::replace(&mut words, sorted)
-            .into_iter()
-            .map(AtomicU64::new)
-            .collect();
+        std::mem::swap(&mut words, &mut other);
         shift += width;
     }
-    words
+    words.into_iter().map(AtomicU64::into_inner).collect()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::binary::{BinaryNode, MAX_BINARY_DEPTH};
 use super::items::Bounds;
-use super::pages::Pages;
+use super::pages::zeroed;
 use crate::progress::Progress;
 
 /// Times that the largest nodes are reinserted.
@@ -22,7 +22,7 @@ pub(super) fn improve(
     nodes: &[BinaryNode],
     order: &[u32],
     progress: Progress<'_>,
-) -> Option<(Pages<BinaryNode>, Vec<u32>)> {
+) -> Option<(Vec<BinaryNode>, Vec<u32>)> {
     let mut tree = Loose::new(nodes);
     let count = (nodes.len() / PART).max(nodes.len().min(1000));
     for round in 0..ROUNDS {
@@ -172,8 +172,8 @@ impl Loose {
     }
 
     /// The nodes and slots in the order of a [`super::BinaryTree`].
-    fn laid_out(&self, order: &[u32]) -> Option<(Pages<BinaryNode>, Vec<u32>)> {
-        let mut nodes = Pages::<BinaryNode>::zeroed(self.nodes.len());
+    fn laid_out(&self, order: &[u32]) -> Option<(Vec<BinaryNode>, Vec<u32>)> {
+        let mut nodes = zeroed(self.nodes.len());
         let mut slots = Vec::with_capacity(order.len());
         let mut next = 1;
         // From where, to where, level. The first child last, so that it comes first.

@@ -1,6 +1,5 @@
 //! Which child goes into which slot.
 
-use super::binary::BinaryNode;
 use super::wide::WIDTH;
 use glam::{Vec3, Vec4, vec4};
 
@@ -14,21 +13,14 @@ pub enum Placing {
     Best,
 }
 
-/// The child in each slot, as an index into `children`.
+/// The child in each slot, as an index into `children`; these are the centres of their boxes, doubled, as is the parent's.
 ///
 /// The sum of how far the children lie towards the corner of their slot from the parent's centre is to be large: Ylitie,
 /// Karras and Laine 2017, section 3, who find the best by the auction algorithm. The corners are not normalised.
-pub(super) fn place(
-    placing: Placing,
-    parent: &BinaryNode,
-    children: &[u32],
-    nodes: &[BinaryNode],
-) -> [Option<u8>; WIDTH] {
-    let middle = parent.low + parent.high;
+pub(super) fn place(placing: Placing, parent: Vec3, children: &[Vec3]) -> [Option<u8>; WIDTH] {
     let mut offsets = [Vec3::ZERO; WIDTH];
     for (offset, child) in offsets.iter_mut().zip(children) {
-        let node = &nodes[*child as usize];
-        *offset = node.low + node.high - middle;
+        *offset = *child - parent;
     }
     let offsets = &offsets[..children.len()];
     match placing {

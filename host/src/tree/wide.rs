@@ -1,24 +1,30 @@
 //! The wide tree.
 
 use super::binary::BinaryTree;
+use super::cells::CellTree;
 use super::collapse::CollapseOptions;
+use super::morton::MortonOrder;
 use super::{BuildPreset, InvalidTree, each_once};
 use crate::build_error::BuildError;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
+use bytemuck::Zeroable;
 use glam::Vec3;
 
 /// Most children of a node.
 pub const WIDTH: usize = 8;
 /// Most triangles of a leaf: those of eight then have numbers of five bits.
 pub const MAX_LEAF: u32 = 4;
+/// The triangles of a node's leaves have so many places.
+const MAX_PLACE: u32 = WIDTH as u32 * MAX_LEAF;
 
 /// What is in a slot of a [`WideNode`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Zeroable)]
 pub enum WideChild {
     /// Nothing; its box is empty, from plus to minus infinity.
     #[default]
-    Empty,
+    Empty = 0,
     /// Triangles, in the slots from `first` on.
     Leaf {
         /// The first slot in [`WideTree::order`].
@@ -35,7 +41,7 @@ pub enum WideChild {
 /// A child lies in the slot of the octant in which it is, as seen from the node's centre: bit 0 of the slot's number is
 /// the upper half of x, bit 1 of y, bit 2 of z. A ray whose direction is negative along the axes of the bits of `o`
 /// meets them front to back, as well as it may be, in the order `0 ^ o, 1 ^ o, ..., 7 ^ o`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Zeroable)]
 pub struct WideNode {
     /// Lowest coordinates of the children, by axis and slot, scene units.
     pub low: [[f32; WIDTH]; 3],
@@ -45,7 +51,7 @@ pub struct WideNode {
     pub children: [WideChild; WIDTH],
     /// Index of the first of the children that are nodes; they lie side by side in the order of their slots.
     pub first_node: u32,
-    /// The first slot of the triangles of children that are leaves; they lie side by side in the order of those.
+    /// The first slot of the triangles of children that are leaves; they lie side by side.
     pub first_triangle: u32,
 }
 
@@ -58,6 +64,16 @@ impl WideNode {
         first_node: 0,
         first_triangle: 0,
     };
+
+    /// Adds to the indices of the children that are nodes.
+    fn move_children(&mut self, by: u32) {
+        self.first_node += by;
+        for child in &mut self.children {
+            if let WideChild::Inner(index) = child {
+                *index += by;
+            }
+        }
+    }
 
     /// The box of the child in a slot.
     pub fn child_box(&self, slot: usize) -> (Vec3, Vec3) {
@@ -87,22 +103,28 @@ pub struct WideTree {
 }
 
 impl WideTree {
-    /// Builds the tree of a mesh; the same one for the same mesh, whatever the number of threads.
+    /// Builds the tree of a mesh as rays are traced through it; the same one for the same mesh, whatever the number of
+    /// threads.
     ///
     /// # Errors
     /// [`BuildError`] where the mesh has nothing to build it from.
-    pub fn build(
-        mesh: &Mesh,
-        preset: BuildPreset,
-        options: &CollapseOptions,
-        progress: Progress<'_>,
-    ) -> Result<Self, BuildError> {
-        Ok(Self::of(&BinaryTree::build(mesh, preset, progress)?, options))
+    pub fn build(mesh: &Mesh, preset: BuildPreset, progress: Progress<'_>) -> Result<Self, BuildError> {
+        let sorted = MortonOrder::new(mesh)?;
+        if preset != BuildPreset::Fast {
+            let tree = BinaryTree::of(&sorted, mesh, preset, progress);
+            return Ok(Self::of(&tree, &CollapseOptions::of(preset)));
+        }
+        let cells = CellTree::build(&sorted, mesh, |node| *node, WideNode::move_children, progress);
+        Ok(WideTree {
+            nodes: cells.nodes,
+            order: cells.ids,
+            degenerate: sorted.degenerate,
+        })
     }
 
     /// Makes a wide tree of a binary one.
     pub fn of(tree: &BinaryTree, options: &CollapseOptions) -> Self {
-        let arrays = tree.to_wide(options, WideNode::EMPTY, |node| *node);
+        let arrays = tree.to_wide(options, |node| *node);
         WideTree {
             nodes: arrays.nodes,
             order: arrays.order,
@@ -118,7 +140,7 @@ impl WideTree {
     pub fn validate(&self, mesh: &Mesh, depth: u32) -> Result<(), InvalidTree> {
         let invalid = |rule: String| Err(InvalidTree(rule));
         each_once(&self.order, self.degenerate, mesh.triangles.len())?;
-        let (mut nodes, mut triangles) = (1, 0);
+        let (mut reached, mut triangles) = (1, vec![false; self.order.len()]);
         let mut open = vec![(0_u32, 0)];
         while let Some((index, level)) = open.pop() {
             let Some(node) = self.nodes.get(index as usize) else {
@@ -127,24 +149,24 @@ impl WideTree {
             if level > depth {
                 return invalid(format!("node {index} is on level {level}"));
             }
-            let (mut next_node, mut next_triangle) = (node.first_node, node.first_triangle);
-            if next_node != nodes || next_triangle != triangles {
-                return invalid(format!(
-                    "the children of node {index} are not behind those of the one before"
-                ));
-            }
+            let mut next_node = node.first_node;
             for (slot, child) in node.children.iter().enumerate() {
                 let smallest = match *child {
                     WideChild::Empty => (Vec3::INFINITY, Vec3::NEG_INFINITY),
                     WideChild::Leaf { first, count } => {
-                        if first != next_triangle || !(1..=MAX_LEAF).contains(&count) {
+                        let place = first.wrapping_sub(node.first_triangle);
+                        if place >= MAX_PLACE || !(1..=MAX_LEAF).contains(&count) {
                             return invalid(format!("slot {slot} of node {index} has {count} triangles at {first}"));
                         }
-                        next_triangle += count;
-                        let Some(ids) = self.order.get(first as usize..next_triangle as usize) else {
+                        let slots = first as usize..(first + count) as usize;
+                        let Some(own) = triangles.get_mut(slots.clone()) else {
                             return invalid(format!("slot {slot} of node {index} is beyond all triangles"));
                         };
-                        let corners = ids.iter().flat_map(|&id| mesh.triangles[id as usize]);
+                        if own.contains(&true) {
+                            return invalid(format!("slot {slot} of node {index} holds triangles of another"));
+                        }
+                        own.fill(true);
+                        let corners = self.order[slots].iter().flat_map(|&id| mesh.triangles[id as usize]);
                         corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), corner| {
                             let corner = mesh.positions[corner as usize];
                             (low.min(corner), high.max(corner))
@@ -165,11 +187,14 @@ impl WideTree {
                     return invalid(format!("the box of slot {slot} of node {index} is not the smallest"));
                 }
             }
-            open.extend((node.first_node..next_node).rev().map(|child| (child, level + 1)));
-            (nodes, triangles) = (next_node, next_triangle);
+            if node.first_node <= index && next_node > node.first_node {
+                return invalid(format!("the children of node {index} are not behind it"));
+            }
+            reached += (next_node - node.first_node) as usize;
+            open.extend((node.first_node..next_node).map(|child| (child, level + 1)));
         }
-        if nodes as usize != self.nodes.len() || triangles as usize != self.order.len() {
-            return invalid("it has nodes or slots that nothing leads to".into());
+        if reached != self.nodes.len() || triangles.contains(&false) {
+            return invalid("it has nodes or slots that nothing leads to, or two things lead to".into());
         }
         Ok(())
     }
