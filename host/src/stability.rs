@@ -106,7 +106,8 @@ fn rows() -> impl Iterator<Item = &'static Row> {
 pub fn row_ids_with_mesh() -> Vec<&'static str> {
     let modes = TRIANGLE_TESTS.iter().chain(TRAVERSALS).map(|mode| mode.id);
     let modes = modes.chain(DEPARTURE_MODES.iter().map(|mode| mode.id));
-    modes.chain(INVALID_ROWS.iter().map(|row| row.id)).collect()
+    let rows = rows().filter(|row| row.mesh.is_some());
+    modes.chain(rows.map(|row| row.id)).collect()
 }
 
 /// The mesh of a row; an empty one where it has none.
@@ -117,8 +118,8 @@ pub fn mesh_of_row(id: &str) -> Result<Mesh, MeshError> {
     if let Some(mode) = TRIANGLE_TESTS.iter().chain(TRAVERSALS).find(|mode| mode.id == id) {
         return (mode.mesh)();
     }
-    if INVALID_ROWS.iter().any(|row| row.id == id) {
-        return Ok(invalid::mesh());
+    if let Some(mesh) = rows().find(|row| row.id == id).and_then(|row| row.mesh) {
+        return Ok(mesh());
     }
     let mode = DEPARTURE_MODES.iter().find(|mode| mode.id == id);
     Ok(mode.map(DepartureMode::mesh).unwrap_or_default())

@@ -1,55 +1,89 @@
 //! Arrays of rays.
 
 use glam::{UVec3, UVec4, Vec4};
+use oktant_shared::brute::{Tile, Together, Workgroup};
 use oktant_shared::buffer::store;
-use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
 use oktant_shared::ray::Ray;
 use oktant_shared::scene::Scene;
 use oktant_shared::traversal::Traversal;
-use spirv_std::spirv;
 
-/// Threads of a workgroup, and workgroups of a row of a dispatch: devices allow 65,535 along an axis.
-const ROW: u32 = 64 * 32_768;
+/// Threads of a workgroup.
+const LINE: u32 = 64;
 
+/// Workgroups of a row of a dispatch: devices allow 65,535 along an axis.
+const ROW: u32 = 32_768;
+
+/// An entry point that takes `$inputs` beside the buffers, and calls `$cast` with `$arguments`, the scene, the rays and where
+/// the hits go.
 macro_rules! cast {
-    ($name:ident, $entry:literal, $traversal:ty, $query:ident, $doc:literal) => {
+    ($doc:literal, $name:ident, { $($inputs:tt)* } $cast:ident, $kind:ty, $($arguments:ident)+) => {
         #[doc = $doc]
-        #[spirv(compute(threads(64), entry_point_name = $entry))]
+        #[spirv_std::spirv(compute(threads(64)))]
         pub fn $name(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[UVec4],
+            $($inputs)*
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[glam::UVec4],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] references: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] triangles: &[Vec4],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] triangles: &[glam::Vec4],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] ids: &[u32],
-            #[spirv(uniform, descriptor_set = 1, binding = 0)] frame: &Frame,
-            #[spirv(storage_buffer, descriptor_set = 2, binding = 0)] hits: &mut [UVec4],
-            #[spirv(storage_buffer, descriptor_set = 2, binding = 1)] rays: &[Vec4],
+            #[spirv(uniform, descriptor_set = 1, binding = 0)] frame: &oktant_shared::frame::Frame,
+            #[spirv(storage_buffer, descriptor_set = 2, binding = 0)] hits: &mut [glam::UVec4],
+            #[spirv(storage_buffer, descriptor_set = 2, binding = 1)] rays: &[glam::Vec4],
         ) {
-            let index = id.y * ROW + id.x;
-            if (index < hits.len() as u32) & (2 * index + 1 < rays.len() as u32) {
-                let scene = Scene {
-                    root: frame.root,
-                    nodes,
-                    references,
-                    triangles,
-                    ids,
-                    parts: 0,
-                };
-                let hit = $query::<$traversal>(&scene, &Ray::of_rows(rays, index));
-                store(hits, index, hit.row());
-            }
+            let scene = oktant_shared::scene::Scene {
+                root: frame.root,
+                nodes,
+                references,
+                triangles,
+                ids,
+                parts: 0,
+            };
+            $crate::cast::$cast::<$kind>($($arguments,)+ &scene, rays, hits);
         }
     };
 }
 
-fn closest<V: Traversal>(scene: &Scene<'_>, ray: &Ray) -> Hit {
-    scene.identified(V::closest_hit(scene, ray))
+/// The entry points of a combination: by [`Brute`](oktant_shared::brute::Brute) the rays of a workgroup together, by all others
+/// each ray on its own.
+macro_rules! cast_with {
+    (Brute, $kind:ty, $doc:literal, $name:ident, $alone:ident $together:ident) => {
+        cast!($doc, $name, {
+            #[spirv(workgroup_id)] group: glam::UVec3,
+            #[spirv(local_invocation_index)] invocation: u32,
+            #[spirv(workgroup)] tile: &mut oktant_shared::brute::Tile,
+        } $together, $kind, group invocation tile);
+    };
+    ($traversal:ident, $kind:ty, $doc:literal, $name:ident, $alone:ident $together:ident) => {
+        cast!($doc, $name, {
+            #[spirv(global_invocation_id)] id: glam::UVec3,
+        } $alone, $kind, id);
+    };
+}
+
+/// Whether there is a ray at an index, and a place for its hit.
+fn is_there(index: u32, rays: &[Vec4], hits: &[UVec4]) -> bool {
+    (index < hits.len() as u32) & (2 * index + 1 < rays.len() as u32)
+}
+
+pub(crate) fn closest<V: Traversal>(id: UVec3, scene: &Scene<'_>, rays: &[Vec4], hits: &mut [UVec4]) {
+    let index = id.y * (ROW * LINE) + id.x;
+    if is_there(index, rays, hits) {
+        let hit = V::closest_hit(scene, &Ray::of_rows(rays, index));
+        store(hits, index, scene.identified(hit).row());
+    }
+}
+
+pub(crate) fn any<V: Traversal>(id: UVec3, scene: &Scene<'_>, rays: &[Vec4], hits: &mut [UVec4]) {
+    let index = id.y * (ROW * LINE) + id.x;
+    if is_there(index, rays, hits) {
+        let ray = Ray::of_rows(rays, index);
+        store(hits, index, answer(V::any_hit(scene, &ray), &ray).row());
+    }
 }
 
 /// A hit at 0 on triangle 0, or a miss.
-fn any<V: Traversal>(scene: &Scene<'_>, ray: &Ray) -> Hit {
-    if V::any_hit(scene, ray) {
+fn answer(is_hit: bool, ray: &Ray) -> Hit {
+    if is_hit {
         Hit {
             t: 0.0,
             triangle: 0,
@@ -60,12 +94,55 @@ fn any<V: Traversal>(scene: &Scene<'_>, ray: &Ray) -> Hit {
     }
 }
 
-macro_rules! cast_all {
-    ($($traversal:ident $triangle:ident $box_test:ident $closest:ident $any:ident
-        $closest_name:literal $any_name:literal $kind:ty;)+) => {$(
-        cast!($closest, $closest_name, $kind, closest, "Writes the nearest hit of each ray.");
-        cast!($any, $any_name, $kind, any, "Writes for each ray triangle 0 if anything is hit, else a miss.");
-    )+};
+pub(crate) fn closest_together<V: Together>(
+    group: UVec3,
+    invocation: u32,
+    tile: &mut Tile,
+    scene: &Scene<'_>,
+    rays: &[Vec4],
+    hits: &mut [UVec4],
+) {
+    let first = (group.y * ROW + group.x) * LINE;
+    // The same for the whole workgroup: all of it waits in there, or none.
+    if is_there(first, rays, hits) {
+        let index = first + invocation;
+        let is_there = is_there(index, rays, hits);
+        // Beyond the end the first ray once more, for nobody.
+        let ray = Ray::of_rows(rays, if is_there { index } else { first });
+        let hit = V::closest_hit_together(scene, &ray, Workgroup::<LINE> { tile, invocation });
+        if is_there {
+            store(hits, index, scene.identified(hit).row());
+        }
+    }
 }
 
-oktant_shared::offered_parts!(cast_all);
+pub(crate) fn any_together<V: Together>(
+    group: UVec3,
+    invocation: u32,
+    tile: &mut Tile,
+    scene: &Scene<'_>,
+    rays: &[Vec4],
+    hits: &mut [UVec4],
+) {
+    let first = (group.y * ROW + group.x) * LINE;
+    // As above.
+    if is_there(first, rays, hits) {
+        let index = first + invocation;
+        let is_there = is_there(index, rays, hits);
+        let ray = Ray::of_rows(rays, if is_there { index } else { first });
+        let is_hit = V::any_hit_together(scene, &ray, Workgroup::<LINE> { tile, invocation });
+        if is_there {
+            store(hits, index, answer(is_hit, &ray).row());
+        }
+    }
+}
+
+/// The entry points of all combinations. rust-gpu names an entry point by the path of its function, so they are made at the root.
+macro_rules! cast_all {
+    ($($traversal:ident $triangle:ident $box_test:ident $closest:ident $any:ident $kind:ty;)+) => {$(
+        cast_with!($traversal, $kind, "Writes the nearest hit of each ray.", $closest, closest closest_together);
+        cast_with!(
+            $traversal, $kind, "Writes for each ray triangle 0 if anything is hit, else a miss.", $any, any any_together
+        );
+    )+};
+}

@@ -1,5 +1,9 @@
 //! No structure at all.
 
+mod workgroup;
+
+pub use workgroup::{TILE, Tile, Together, Workgroup};
+
 use crate::box_test::KayKajiya;
 use crate::buffer::load;
 use crate::entered::Entered;
@@ -10,6 +14,8 @@ use crate::walk::{self, Along, Range};
 ///
 /// A ray that misses the cube around everything is spared them, and one from afar is traced from shortly before it, as in
 /// the structures.
+///
+/// On the GPU, the rays of a workgroup that are cast as an array read the triangles together (see [`Workgroup`]).
 ///
 /// The only node's first word is the number of triangles.
 pub type Brute<T> = Along<Walk, KayKajiya, T>;

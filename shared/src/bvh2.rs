@@ -18,6 +18,11 @@ pub const MAX_LEVEL: u32 = 96;
 /// The bit of a link that leads to a leaf.
 pub const LEAF: u32 = 1 << 31;
 
+/// By how much a box may be entered behind the nearest hit and is visited all the same. Boxes and triangles are rounded in
+/// different ways: without it, of two triangles in one plane the one with the lower id would be lost where its box comes
+/// out a little behind the other.
+const LIMIT_SLACK: f32 = 1.0 + 1.0 / (1 << 20) as f32;
+
 /// The link of a walk that has come to its end.
 const DONE: u32 = u32::MAX;
 
@@ -62,6 +67,7 @@ impl<B: BoxTest> walk::Walk for Walk<B> {
     #[inline(always)]
     fn leaf(&mut self, scene: &Scene<'_>, limit: f32) -> Range {
         if self.link & LEAF == 0 {
+            let limit = limit * LIMIT_SLACK;
             loop {
                 self.descend(scene, limit);
                 if self.link & LEAF != 0 {

@@ -169,15 +169,21 @@ impl TriangleTest for AnyTriangle {
 
     #[inline(always)]
     fn crossing(&self, triangle: &Triangle) -> Crossing {
-        if self.kind == TriangleKind::Watertight as u32 {
-            Watertight::prepare(&self.ray).crossing(triangle)
-        } else if self.kind == TriangleKind::MollerTrumbore as u32 {
-            MollerTrumbore::prepare(&self.ray).crossing(triangle)
-        } else if self.kind == TriangleKind::BaldwinWeber as u32 {
-            BaldwinWeber::prepare(&self.ray).crossing(triangle)
-        } else {
-            Plucker::prepare(&self.ray).crossing(triangle)
-        }
+        crossing(self.kind, self.ray, *triangle)
+    }
+}
+
+/// In the kernel once, not wherever a ray is traced.
+#[cfg_attr(target_arch = "spirv", inline(never))]
+fn crossing(kind: u32, ray: PreparedRay, triangle: Triangle) -> Crossing {
+    if kind == TriangleKind::Watertight as u32 {
+        Watertight::prepare(&ray).crossing(&triangle)
+    } else if kind == TriangleKind::MollerTrumbore as u32 {
+        MollerTrumbore::prepare(&ray).crossing(&triangle)
+    } else if kind == TriangleKind::BaldwinWeber as u32 {
+        BaldwinWeber::prepare(&ray).crossing(&triangle)
+    } else {
+        Plucker::prepare(&ray).crossing(&triangle)
     }
 }
 

@@ -83,7 +83,7 @@ kinds! {
     }
     /// [`crate::brute::Brute`].
     Brute {
-        "brute", "none", "no nodes; all triangles", true
+        "brute", "none", "no nodes; all triangles, cast on the GPU in tiles of 64", true
     }
 }
 
@@ -165,51 +165,39 @@ impl fmt::Display for Parts {
 }
 
 /// Hands the list of all combinations that are offered to a macro: kinds of traversal, triangle test and box test, then
-/// the names of the entry points for closest hits and any hits, then the type that has the traversal.
+/// the entry points for closest hits and any hits, then the type that has the traversal.
 #[macro_export]
 macro_rules! offered_parts {
     ($macro:ident) => {
         $macro! {
             Octants Watertight KayKajiya closest_octants_watertight any_octants_watertight
-                "closest_octants_watertight" "any_octants_watertight"
                 $crate::octants::Octants<$crate::triangle_test::Watertight>;
             Octants MollerTrumbore KayKajiya closest_octants_moller_trumbore any_octants_moller_trumbore
-                "closest_octants_moller_trumbore" "any_octants_moller_trumbore"
                 $crate::octants::Octants<$crate::triangle_test::MollerTrumbore>;
             Octants BaldwinWeber KayKajiya closest_octants_baldwin_weber any_octants_baldwin_weber
-                "closest_octants_baldwin_weber" "any_octants_baldwin_weber"
                 $crate::octants::Octants<$crate::triangle_test::BaldwinWeber>;
             Octants Plucker KayKajiya closest_octants_plucker any_octants_plucker
-                "closest_octants_plucker" "any_octants_plucker"
                 $crate::octants::Octants<$crate::triangle_test::Plucker>;
             Octree Watertight KayKajiya closest_octree_watertight_kay_kajiya any_octree_watertight_kay_kajiya
-                "closest_octree_watertight_kay_kajiya" "any_octree_watertight_kay_kajiya"
                 $crate::revelles::Revelles<$crate::box_test::KayKajiya, $crate::triangle_test::Watertight>;
             Octree MollerTrumbore Williams closest_octree_moller_trumbore_williams any_octree_moller_trumbore_williams
-                "closest_octree_moller_trumbore_williams" "any_octree_moller_trumbore_williams"
                 $crate::revelles::Revelles<$crate::box_test::Williams, $crate::triangle_test::MollerTrumbore>;
             Bvh2 Watertight KayKajiya closest_bvh2_watertight_kay_kajiya any_bvh2_watertight_kay_kajiya
-                "closest_bvh2_watertight_kay_kajiya" "any_bvh2_watertight_kay_kajiya"
                 $crate::bvh2::Bvh2<$crate::box_test::KayKajiya, $crate::triangle_test::Watertight>;
             Bvh2 Watertight Williams closest_bvh2_watertight_williams any_bvh2_watertight_williams
-                "closest_bvh2_watertight_williams" "any_bvh2_watertight_williams"
                 $crate::bvh2::Bvh2<$crate::box_test::Williams, $crate::triangle_test::Watertight>;
             Grid Watertight KayKajiya closest_grid_watertight_kay_kajiya any_grid_watertight_kay_kajiya
-                "closest_grid_watertight_kay_kajiya" "any_grid_watertight_kay_kajiya"
                 $crate::grid::Grid<$crate::box_test::KayKajiya, $crate::triangle_test::Watertight>;
             Grid Watertight Williams closest_grid_watertight_williams any_grid_watertight_williams
-                "closest_grid_watertight_williams" "any_grid_watertight_williams"
                 $crate::grid::Grid<$crate::box_test::Williams, $crate::triangle_test::Watertight>;
             Brute Watertight KayKajiya closest_brute_watertight any_brute_watertight
-                "closest_brute_watertight" "any_brute_watertight"
                 $crate::brute::Brute<$crate::triangle_test::Watertight>;
         }
     };
 }
 
 macro_rules! entry_points {
-    ($($traversal:ident $triangle:ident $box_test:ident $closest:ident $any:ident
-        $closest_name:literal $any_name:literal $kind:ty;)+) => {
+    ($($traversal:ident $triangle:ident $box_test:ident $closest:ident $any:ident $kind:ty;)+) => {
         impl Parts {
             /// Everything that is offered.
             pub const OFFERED: &[Parts] = &[$(Parts {
@@ -222,7 +210,7 @@ macro_rules! entry_points {
             pub fn entry_points(self) -> Option<(&'static str, &'static str)> {
                 match (self.traversal, self.triangle, self.box_test) {
                     $((TraversalKind::$traversal, TriangleKind::$triangle, BoxKind::$box_test) => {
-                        Some(($closest_name, $any_name))
+                        Some((stringify!($closest), stringify!($any)))
                     })+
                     _ => None,
                 }

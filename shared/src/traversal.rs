@@ -12,7 +12,10 @@ pub trait Traversal {
     /// as others do: the traversal is in the kernel once less.
     const SHADOWS_APART: bool = true;
 
-    /// The hit with the smallest `t` within the ray's limits, of equal ones the triangle with the lowest id.
+    /// The hit with the smallest `t` within the ray's limits, of equal ones the triangle with the lowest id, as the triangle
+    /// test computes it: of triangles in one plane, rounding may put any a little in front. A box or cell may be left out
+    /// once a hit lies before it, so that where the test's `t` is off by more than boxes are wider, as of slender
+    /// triangles, another triangle may be found, whose `t` is off by no more.
     ///
     /// A miss has the ray's `t_max` and no triangle.
     fn closest_hit(scene: &Scene<'_>, ray: &Ray) -> Hit;

@@ -43,9 +43,12 @@ impl Triangle {
     /// The triangle at a slot of those that lie in rows.
     #[inline(always)]
     pub fn at(rows: &[Vec4], slot: u32) -> Self {
-        let a = load(rows, 3 * slot);
-        let b = load(rows, 3 * slot + 1);
-        let c = load(rows, 3 * slot + 2);
+        Self::of_rows(load(rows, 3 * slot), load(rows, 3 * slot + 1), load(rows, 3 * slot + 2))
+    }
+
+    /// The triangle of three rows.
+    #[inline(always)]
+    pub fn of_rows(a: Vec4, b: Vec4, c: Vec4) -> Self {
         Triangle {
             a: Vec3::new(a.x, a.y, a.z),
             vertex_a: a.w.to_bits(),

@@ -195,7 +195,7 @@ fn what_was_visited_is_exported() {
 #[test]
 fn what_the_lab_prints_can_be_traced() {
     let folder = tempfile::tempdir().unwrap();
-    let rows = "edges,table-1,box-in-plane,leave-near,none";
+    let rows = "edges,table-1,box-in-plane,leave-near,none,reflect-below,normal-away,terminator,total,inside";
     let lab = [
         "stability",
         "--backend",
@@ -215,7 +215,7 @@ fn what_the_lab_prints_can_be_traced() {
         .filter_map(|line| line.split_once(": oktant "))
         .map(|it| it.1)
         .collect();
-    assert!(lines.len() >= 12, "{}", lab.output);
+    assert!(lines.len() >= 18, "{}", lab.output);
     for line in &lines {
         let again = run(folder.path(), line.split(' '));
         assert_eq!(again.code, Some(0), "{line}: {}", again.error);

@@ -367,8 +367,15 @@ fn secondary_origin_probe() {
             .max(triangle.b.abs())
             .max(triangle.c.abs())
             .max_element();
+        // The more slender a triangle, the farther off it is left, and the more of its area is rounding: fused here, not there.
+        let [ab, ac] = [triangle.b, triangle.c].map(|corner| corner.as_dvec3() - triangle.a.as_dvec3());
+        let longest = ab
+            .length_squared()
+            .max(ac.length_squared())
+            .max((ac - ab).length_squared());
+        let slender = (longest / ab.cross(ac).length()) as f32 / (1 << 24) as f32;
         assert!(
-            (r.truncate() - here).abs().max_element() <= size * 1e-6,
+            (r.truncate() - here).abs().max_element() <= size * (1e-6 + 4.0 * slender * slender),
             "{triangle:?} {hit:?}"
         );
     }

@@ -57,7 +57,7 @@ impl Cpu {
             return Err(BackendError::Parts(parts));
         }
         macro_rules! cast_with {
-            ($($traversal:ident $triangle:ident $box_test:ident $($entry:ident)+ $($name:literal)+ $kind:ty;)+) => {
+            ($($traversal:ident $triangle:ident $box_test:ident $closest:ident $any:ident $kind:ty;)+) => {
                 match (parts.traversal, parts.triangle, parts.box_test) {
                     $((TraversalKind::$traversal, TriangleKind::$triangle, BoxKind::$box_test) => {
                         cast::<$kind>(&self.scene, query, rays, hits);

@@ -30,8 +30,9 @@ pub enum Tracer {
     Gpu(GpuBackend),
 }
 
-/// lavapipe leaves the loops of an invocation after so many rounds without a word.
-const SOFTWARE_ROUNDS: usize = 65_535;
+/// lavapipe leaves all loops of an invocation when they have taken 65,535 turns together, without a word: so many triangles are
+/// tested before, with the turns that reading them in tiles takes.
+const SOFTWARE_TRIANGLES: usize = 50_000;
 
 impl Device {
     /// What it is, for people.
@@ -45,7 +46,7 @@ impl Device {
     /// How many triangles brute force can test for a ray.
     pub fn most_brute(&self) -> usize {
         match self {
-            Device::Gpu(gpu) if gpu.is_software() => SOFTWARE_ROUNDS,
+            Device::Gpu(gpu) if gpu.is_software() => SOFTWARE_TRIANGLES,
             _ => usize::MAX,
         }
     }

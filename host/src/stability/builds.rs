@@ -32,6 +32,7 @@ pub const FAMILY: &str = "builds";
 pub const BUILD_ROWS: &[Row] = &[
     Row {
         id: "build-fan",
+        mesh: None,
         run: |_| {
             let about = About {
                 id: "build-fan",
@@ -47,6 +48,7 @@ pub const BUILD_ROWS: &[Row] = &[
     },
     Row {
         id: "build-coincident",
+        mesh: None,
         run: |_| {
             let about = About {
                 id: "build-coincident",
@@ -62,6 +64,7 @@ pub const BUILD_ROWS: &[Row] = &[
     },
     Row {
         id: "build-plane",
+        mesh: None,
         run: |_| {
             let about = About {
                 id: "build-plane",
@@ -76,14 +79,17 @@ pub const BUILD_ROWS: &[Row] = &[
     },
     Row {
         id: "build-utm",
+        mesh: None,
         run: |_| utm(),
     },
     Row {
         id: "build-nan",
+        mesh: None,
         run: |_| nan(),
     },
     Row {
         id: "build-rounding",
+        mesh: None,
         run: |plan| Ok(touches::rounding(plan.rays)),
     },
 ];

@@ -4,11 +4,15 @@ use super::clock::quickest;
 use super::report::{MethodReport, Role, RowReport};
 use super::tally::{Counts, Failure};
 use super::{LabError, Plan};
+use crate::mesh::Mesh;
+use oktant_shared::ray::Ray;
 
 /// A row with a way of its own to run.
 pub struct Row {
     /// What a command line calls it.
     pub id: &'static str,
+    /// The mesh at which its rays can be traced again; none where what fails is no ray.
+    pub mesh: Option<fn() -> Mesh>,
     /// Runs it.
     pub run: fn(&Plan) -> Result<RowReport, LabError>,
 }
@@ -44,21 +48,45 @@ impl About {
     }
 }
 
-/// A method by name: what is wrong with its answer to a case, one of the kinds of [`Failure`].
-pub type Test<C> = (&'static str, Role, fn(&C) -> Option<&'static str>);
+/// What is wrong with a method's answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrong {
+    /// One of the kinds of [`Failure`].
+    pub kind: &'static str,
+    /// The ray that goes wrong, where that is not the case's own.
+    pub ray: Option<Ray>,
+}
+
+impl Wrong {
+    /// If `is_wrong`, in that way.
+    pub fn when(is_wrong: bool, kind: &'static str) -> Option<Self> {
+        is_wrong.then_some(Wrong { kind, ray: None })
+    }
+
+    /// If `is_wrong`: the ray meets something that it should not.
+    pub fn ray(is_wrong: bool, ray: Ray) -> Option<Self> {
+        is_wrong.then_some(Wrong {
+            kind: "false",
+            ray: Some(ray),
+        })
+    }
+}
+
+/// A method by name: what is wrong with its answer to a case.
+pub type Test<C> = (&'static str, Role, fn(&C) -> Option<Wrong>);
 
 /// What all methods make of the cases, on the CPU.
-pub fn judged<C>(cases: &[C], tests: &[Test<C>], failure: impl Fn(&C) -> Failure) -> Vec<MethodReport> {
+pub fn judged<C>(cases: &[C], tests: &[Test<C>], failure: impl Fn(&C, &Wrong) -> Failure) -> Vec<MethodReport> {
     let mut base = None;
     let report = |(name, role, test): &Test<C>| {
-        let (kinds, time) = quickest(|| cases.iter().map(test).collect::<Vec<_>>());
+        let (answers, time) = quickest(|| cases.iter().map(test).collect::<Vec<_>>());
         let seconds = time.as_secs_f64();
         let ratio = seconds / *base.get_or_insert(seconds);
-        let of = |wanted| kinds.iter().filter(|kind| **kind == Some(wanted)).count();
+        let of = |kind| answers.iter().flatten().filter(|wrong| wrong.kind == kind).count();
         let wrong = cases
             .iter()
-            .zip(&kinds)
-            .filter_map(|(case, kind)| Some((case, (*kind)?)));
+            .zip(&answers)
+            .filter_map(|(case, wrong)| Some((case, wrong.as_ref()?)));
         MethodReport {
             name: (*name).into(),
             role: *role,
@@ -73,7 +101,10 @@ pub fn judged<C>(cases: &[C], tests: &[Test<C>], failure: impl Fn(&C) -> Failure
             time_ratio: (cases.len() >= 1000).then_some(ratio),
             failures: wrong
                 .take(super::subject::KEPT)
-                .map(|(case, kind)| Failure { kind, ..failure(case) })
+                .map(|(case, wrong)| Failure {
+                    kind: wrong.kind,
+                    ..failure(case, wrong)
+                })
                 .collect(),
         }
     };

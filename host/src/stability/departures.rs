@@ -3,7 +3,7 @@
 use super::aim::{Aim, at};
 use super::clock::quickest;
 use super::exhibits::origins::{
-    Departure, Method, bounded, bounded_on_ray, integers_on_ray, least_t, none, ten_thousandth, thousandth,
+    Departure, Method, bounded, bounded_on_ray, integers_on_ray, least_t, none, ten_thousandth, thousandth, wide,
 };
 use super::meshes::sphere;
 use super::report::{MethodReport, Role, RowReport};
@@ -18,21 +18,23 @@ use oktant_shared::ray::Ray;
 use oktant_shared::traversal::{Standard, Traversal};
 use rayon::prelude::*;
 
-/// A closed convex sphere, met from outside; what leaves it outwards meets nothing.
+/// A closed convex sphere or ellipsoid, met from outside; what leaves it outwards meets nothing.
 pub struct DepartureMode {
     /// What a command line calls it.
     pub id: &'static str,
     title: &'static str,
     input: &'static str,
-    radius: f32,
+    /// Along x, y and z.
+    radii: Vec3,
     center: Vec3,
     /// Radii from the sphere's middle to the camera.
     distance: f32,
     fails: &'static [&'static str],
 }
 
-const METHODS: [(&str, Role, Method); 7] = [
+const METHODS: [(&str, Role, Method); 8] = [
     ("weights, bound of rounding", Role::Default, bounded),
+    ("weights, bound for wide triangles", Role::Exhibit, wide),
     ("on the ray, as it is", Role::Exhibit, none),
     ("on the ray, t from 1e-4", Role::Exhibit, least_t),
     ("on the ray, normal times 1e-3", Role::Exhibit, thousandth),
@@ -49,7 +51,7 @@ pub const DEPARTURE_MODES: &[DepartureMode] = &[
         id: "leave-near",
         title: "of a sphere of radius 1, met from 3 radii",
         input: "closed sphere of radius 1; outwards from where rays from 3 radii away meet it",
-        radius: 1.0,
+        radii: Vec3::splat(1.0),
         center: Vec3::ZERO,
         distance: 3.0,
         fails: &["on the ray, as it is"],
@@ -58,7 +60,7 @@ pub const DEPARTURE_MODES: &[DepartureMode] = &[
         id: "leave-far",
         title: "of a sphere of radius 1, met from 1,000 radii",
         input: "closed sphere of radius 1; outwards from where rays from 1,000 radii away meet it",
-        radius: 1.0,
+        radii: Vec3::splat(1.0),
         center: Vec3::ZERO,
         distance: 1e3,
         fails: &[
@@ -71,7 +73,7 @@ pub const DEPARTURE_MODES: &[DepartureMode] = &[
         id: "leave-small",
         title: "of a sphere of radius 0.001",
         input: "closed sphere of radius 0.001; outwards from where rays from 3 radii away meet it",
-        radius: 1e-3,
+        radii: Vec3::splat(1e-3),
         center: Vec3::ZERO,
         distance: 3.0,
         fails: &["on the ray, as it is"],
@@ -80,7 +82,7 @@ pub const DEPARTURE_MODES: &[DepartureMode] = &[
         id: "leave-tiny",
         title: "of a sphere of radius 0.000001",
         input: "closed sphere of radius 0.000001; outwards from where rays from 3 radii away meet it",
-        radius: 1e-6,
+        radii: Vec3::splat(1e-6),
         center: Vec3::ZERO,
         distance: 3.0,
         fails: &["on the ray, as it is"],
@@ -89,7 +91,7 @@ pub const DEPARTURE_MODES: &[DepartureMode] = &[
         id: "leave-large",
         title: "of a sphere of radius 1,000,000",
         input: "closed sphere of radius 1,000,000; outwards from where rays from 3 radii away meet it",
-        radius: 1e6,
+        radii: Vec3::splat(1e6),
         center: Vec3::ZERO,
         distance: 3.0,
         fails: &[
@@ -103,7 +105,7 @@ pub const DEPARTURE_MODES: &[DepartureMode] = &[
         id: "leave-offset",
         title: "of a sphere far from the origin of coordinates",
         input: "closed sphere of radius 1 about (1000, 1234, -2234); outwards from where rays from 3 radii away meet it",
-        radius: 1.0,
+        radii: Vec3::splat(1.0),
         center: OFFSET,
         distance: 3.0,
         fails: &[
@@ -112,12 +114,25 @@ pub const DEPARTURE_MODES: &[DepartureMode] = &[
             "on the ray, normal times 1e-4",
         ],
     },
+    DepartureMode {
+        id: "leave-slender",
+        title: "of triangles that are hundreds of times as long as wide",
+        input: "closed ellipsoid 200 times as long as wide; outwards from where rays from 3 lengths away meet it",
+        radii: vec3(1.0, 1.0, 200.0),
+        center: Vec3::ZERO,
+        distance: 3.0,
+        fails: &["weights, bound for wide triangles", "on the ray, as it is"],
+    },
 ];
 
 impl DepartureMode {
     /// The sphere.
     pub fn mesh(&self) -> Mesh {
-        sphere(self.radius, self.center)
+        let mut mesh = sphere(1.0, Vec3::ZERO);
+        for position in &mut mesh.positions {
+            *position = *position * self.radii + self.center;
+        }
+        mesh
     }
 
     /// Runs all methods.
@@ -129,8 +144,11 @@ impl DepartureMode {
         let scene = Scene::new(&mesh, &StructureOptions::default(), &silent)?;
         let view = scene.view();
         let mut aim = Aim::new(&mesh, 31);
+        // As slender as the body, or most would pass it.
+        let shape = self.radii / self.radii.max_element();
+        let within = |point: Vec3| self.center + (point - self.center) * shape;
         let arrivals: Vec<(Ray, Vec3)> = (0..count)
-            .map(|_| (at(aim.away(self.distance), aim.within(0.4)), aim.unit()))
+            .map(|_| (at(aim.away(self.distance), within(aim.within(0.4))), aim.unit()))
             .collect();
         let departures: Vec<Departure<'_>> = arrivals
             .par_iter()
@@ -184,7 +202,8 @@ impl DepartureMode {
             family: "rays that leave a surface",
             title: self.title,
             input: self.input,
-            remedy: "the point from the barycentric weights, moved by the bound of its rounding error",
+            remedy: "the point from the barycentric weights, moved by the bound of its rounding error and of \
+                     the test's",
             must_fail: self.fails.into(),
             methods: methods.into(),
         })

@@ -23,7 +23,11 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// The only one.
-pub const INVALID_ROWS: &[Row] = &[Row { id: "none", run }];
+pub const INVALID_ROWS: &[Row] = &[Row {
+    id: "none",
+    mesh: Some(mesh),
+    run,
+}];
 
 const ABOUT: About = About {
     id: "none",

@@ -1,18 +1,20 @@
 //! Where shading fails: at normals that are not those of the triangle, at edges of shadows, in glass.
 
 use super::aim::{Aim, at};
-use super::cases::{About, Row, Test, judged};
+use super::cases::{About, Row, Test, Wrong, judged};
 use super::exhibits::optics;
 use super::meshes::{of_pairs, sphere, tilted};
 use super::report::{Role, RowReport};
-use super::surface_case::{Case, cases, middle, on_ball, shaded, through};
-use super::tally::{Failure, written};
+use super::subject::triangle;
+use super::surface_case::{Case, ball, cases, middle, on_ball, shaded, through};
+use super::tally::Failure;
 use super::{LabError, Plan};
 use crate::progress::silent;
 use crate::scene::Scene;
 use crate::structure::StructureOptions;
 use glam::Vec3;
 use oktant_shared::medium::Media;
+use oktant_shared::normal::face_normal;
 use oktant_shared::optics::{reflected, refracted};
 use oktant_shared::ray::Ray;
 use oktant_shared::traversal::{Standard, Traversal};
@@ -24,6 +26,7 @@ const FAMILY: &str = "shading";
 pub const SHADING_ROWS: &[Row] = &[
     Row {
         id: "reflect-below",
+        mesh: Some(|| tilted(&[Vec3::Z; MOST_TRIANGLES])),
         run: |plan| {
             let about = About {
                 id: "reflect-below",
@@ -47,6 +50,7 @@ pub const SHADING_ROWS: &[Row] = &[
     },
     Row {
         id: "normal-away",
+        mesh: Some(|| tilted(&[Vec3::Z; MOST_TRIANGLES])),
         run: |plan| {
             let about = About {
                 id: "normal-away",
@@ -60,10 +64,10 @@ pub const SHADING_ROWS: &[Row] = &[
             let tests: &[Test<Case>] = &[
                 ("side by the triangle", Role::Default, |case| {
                     let is_right = case.surface.from_front && case.surface.normal.dot(Vec3::Z) > 0.0;
-                    (!is_right).then_some("false")
+                    Wrong::when(!is_right, "false")
                 }),
                 ("side by the normal", Role::Exhibit, |case| {
-                    (case.normal.dot(case.ray.direction) > 0.0).then_some("false")
+                    Wrong::when(case.normal.dot(case.ray.direction) > 0.0, "false")
                 }),
                 ("normal turned to the viewer", Role::Exhibit, |case| {
                     let turned = if case.normal.dot(case.ray.direction) > 0.0 {
@@ -71,7 +75,7 @@ pub const SHADING_ROWS: &[Row] = &[
                     } else {
                         case.normal
                     };
-                    (turned.dot(Vec3::Z) <= 0.0).then_some("false")
+                    Wrong::when(turned.dot(Vec3::Z) <= 0.0, "false")
                 }),
             ];
             on_triangles(plan, &about, tests, 1.05, 2.0)
@@ -79,6 +83,7 @@ pub const SHADING_ROWS: &[Row] = &[
     },
     Row {
         id: "terminator",
+        mesh: Some(ball),
         run: |plan| {
             let about = About {
                 id: "terminator",
@@ -93,21 +98,25 @@ pub const SHADING_ROWS: &[Row] = &[
                 ("from the surface that the normals describe", Role::Default, |case| {
                     let origin = case.surface.shadow_point + case.surface.side * case.surface.clearance;
                     let shadow = Ray::new(origin, case.light);
-                    Standard::any_hit(&case.scene.view(), &shadow).then_some("false")
+                    Wrong::ray(Standard::any_hit(&case.scene.view(), &shadow), shadow)
                 }),
                 ("from the triangle", Role::Exhibit, |case| {
                     let is_behind = case.surface.side.dot(case.light) <= 0.0;
                     let shadow = Ray::new(case.surface.front_origin(), case.light);
-                    (is_behind || Standard::any_hit(&case.scene.view(), &shadow)).then_some("false")
+                    Wrong::ray(is_behind || Standard::any_hit(&case.scene.view(), &shadow), shadow)
                 }),
             ];
             let mut cases = on_ball(plan.rays)?;
             cases.retain(|case| case.normal.dot(case.light) > 0.02);
-            Ok(about.report(judged(&cases, tests, failure)))
+            Ok(about.report(judged(&cases, tests, |case, wrong| {
+                failure(case, wrong).replayed("lab:terminator", "")
+            })))
         },
     },
     Row {
         id: "zero-normal",
+        // A normal is not finite; the ray that meets it is right.
+        mesh: None,
         run: |plan| {
             let about = About {
                 id: "zero-normal",
@@ -120,10 +129,10 @@ pub const SHADING_ROWS: &[Row] = &[
             let tests: &[Test<Case>] = &[
                 ("triangle's normal", Role::Default, |case| {
                     let is_unit = (case.surface.normal.length() - 1.0).abs() < 1e-5;
-                    (!is_unit).then_some("not finite")
+                    Wrong::when(!is_unit, "not finite")
                 }),
                 ("unit vector of zero", Role::Exhibit, |case| {
-                    (!case.normal.normalize().is_finite()).then_some("not finite")
+                    Wrong::when(!case.normal.normalize().is_finite(), "not finite")
                 }),
             ];
             let mesh = of_pairs(plan.rays.min(10_000));
@@ -137,6 +146,8 @@ pub const SHADING_ROWS: &[Row] = &[
     },
     Row {
         id: "power",
+        // A colour is not finite; the ray that meets it is right.
+        mesh: None,
         run: |plan| {
             let about = About {
                 id: "power",
@@ -148,11 +159,11 @@ pub const SHADING_ROWS: &[Row] = &[
             };
             let tests: &[Test<Case>] = &[
                 ("cosine from 0 to 1", Role::Default, |case| {
-                    (!shaded(case).is_finite()).then_some("not finite")
+                    Wrong::when(!shaded(case).is_finite(), "not finite")
                 }),
                 ("power of the cosine as it is", Role::Exhibit, |case| {
                     let cosine = reflected(case.ray.direction.normalize(), case.surface.normal).dot(case.light);
-                    (!cosine.powf(case.exponent).is_finite()).then_some("not finite")
+                    Wrong::when(!cosine.powf(case.exponent).is_finite(), "not finite")
                 }),
             ];
             Ok(about.report(judged(&on_ball(plan.rays)?, tests, failure)))
@@ -160,44 +171,54 @@ pub const SHADING_ROWS: &[Row] = &[
     },
     Row {
         id: "total",
+        mesh: Some(|| sphere(1.0, Vec3::ZERO)),
         run: |plan| {
             let about = About {
                 id: "total",
                 family: FAMILY,
                 title: "total reflection in glass",
-                input: "from an index of 1.5 into one of 1, at 30 to 60 degrees from the normal; the limit is at 41.8",
+                input: "closed sphere of radius 1; from inside at the middles of its triangles, at 30 to 60 degrees from the \
+                        normal, from an index of 1.5 into one of 1: the limit is at 41.8",
                 remedy: "total reflection is a branch, not the root of a number below zero",
                 fails: &["root of what is left"],
             };
-            let tests: &[Test<(Vec3, Vec3)>] = &[
-                ("a branch", Role::Default, |(direction, normal)| {
-                    let refraction = refracted(*direction, *normal, 1.5, 1.0);
+            let tests: &[Test<(Ray, Vec3)>] = &[
+                ("a branch", Role::Default, |(ray, normal)| {
+                    let refraction = refracted(ray.direction, *normal, 1.5, 1.0);
                     let is_fair = refraction.total || (refraction.direction.length() - 1.0).abs() < 1e-5;
-                    (!is_fair).then_some("not finite")
+                    Wrong::when(!is_fair, "not finite")
                 }),
-                ("root of what is left", Role::Exhibit, |(direction, normal)| {
-                    (!optics::refracted(*direction, *normal, 1.5).is_finite()).then_some("not finite")
+                ("root of what is left", Role::Exhibit, |(ray, normal)| {
+                    let refracted = optics::refracted(ray.direction, *normal, 1.5);
+                    Wrong::when(!refracted.is_finite(), "not finite")
                 }),
             ];
             let ball = sphere(1.0, Vec3::ZERO);
             let mut aim = Aim::new(&ball, 44);
-            let pairs: Vec<(Vec3, Vec3)> = std::iter::repeat_with(|| {
-                let normal = aim.unit();
+            let rays: Vec<(Ray, Vec3)> = std::iter::repeat_with(|| {
+                let corners = aim.triangle();
+                let normal = face_normal(&triangle(corners));
                 let along = normal.cross(aim.unit()).normalize();
                 let angle = (45.0 + 15.0 * aim.signed()).to_radians();
-                ((along * angle.sin() - normal * angle.cos()).normalize(), normal)
+                let direction = (along * angle.sin() + normal * angle.cos()).normalize();
+                let target = (corners[0] + corners[1] + corners[2]) / 3.0;
+                (Ray::new(target - 0.5 * direction, direction), -normal)
             })
             .take(plan.rays)
             .collect();
-            let failure = |(direction, normal): &(Vec3, Vec3)| Failure {
-                corners: vec![vec![normal.to_array()]],
-                ..Failure::of_ray(&Ray::new(-*direction, *direction))
+            let failure = |(ray, normal): &(Ray, Vec3), _: &Wrong| {
+                let failure = Failure {
+                    corners: vec![vec![normal.to_array()]],
+                    ..Failure::of_ray(ray)
+                };
+                failure.replayed("lab:total", "")
             };
-            Ok(about.report(judged(&pairs, tests, failure)))
+            Ok(about.report(judged(&rays, tests, failure)))
         },
     },
     Row {
         id: "inside",
+        mesh: Some(|| sphere(1.0, Vec3::ZERO)),
         run: |plan| {
             let about = About {
                 id: "inside",
@@ -209,10 +230,10 @@ pub const SHADING_ROWS: &[Row] = &[
             };
             let tests: &[Test<(Arc<Scene>, Ray)>] = &[
                 ("by the triangle's normal", Role::Default, |(scene, ray)| {
-                    (through(scene, *ray) != Media::AIR).then_some("false")
+                    Wrong::when(through(scene, *ray) != Media::AIR, "false")
                 }),
                 ("toggled at every crossing", Role::Exhibit, |(scene, ray)| {
-                    (optics::crossings(scene, ray) % 2 == 1).then_some("false")
+                    Wrong::when(optics::crossings(scene, ray) % 2 == 1, "false")
                 }),
             ];
             let mesh = sphere(1.0, Vec3::ZERO);
@@ -224,14 +245,19 @@ pub const SHADING_ROWS: &[Row] = &[
             });
             // The exhibit tests all triangles.
             let rays: Vec<_> = rays.take(plan.rays.min(2_000)).collect();
-            Ok(about.report(judged(&rays, tests, |(_, ray)| Failure::of_ray(ray))))
+            let failure = |(_, ray): &(Arc<Scene>, Ray), _: &Wrong| Failure::of_ray(ray).replayed("lab:inside", "");
+            Ok(about.report(judged(&rays, tests, failure)))
         },
     },
 ];
 
-fn below(case: &Case, normal: Vec3) -> Option<&'static str> {
-    (reflected(case.ray.direction, normal).z <= 0.0).then_some("false")
+fn below(case: &Case, normal: Vec3) -> Option<Wrong> {
+    let mirrored = Ray::new(case.surface.front_origin(), reflected(case.ray.direction, normal));
+    Wrong::ray(mirrored.direction.z <= 0.0, mirrored)
 }
+
+/// Triangles side by side, where there are not fewer rays.
+const MOST_TRIANGLES: usize = 100_000;
 
 /// Triangles in the plane z = 0, whose normals are tilted by `least` to `most` of the elevation at which a ray comes.
 fn on_triangles(
@@ -243,7 +269,7 @@ fn on_triangles(
 ) -> Result<RowReport, LabError> {
     let mut random = fastrand::Rng::with_seed(41);
     let (mut normals, mut directions) = (Vec::new(), Vec::new());
-    for _ in 0..plan.rays.min(100_000) {
+    for _ in 0..plan.rays.min(MOST_TRIANGLES) {
         let elevation = (5.0 + 35.0 * random.f32()).to_radians();
         let tilt = elevation * (least + (most - least) * random.f32());
         let (sin, cos) = (std::f32::consts::TAU * random.f32()).sin_cos();
@@ -257,17 +283,17 @@ fn on_triangles(
         Ray::new(origin, *direction)
     });
     let rays = rays.collect();
-    Ok(about.report(judged(&cases(mesh, rays)?, tests, failure)))
+    let replayed = |case: &Case, wrong: &Wrong| failure(case, wrong).replayed(&format!("lab:{}", about.id), "");
+    Ok(about.report(judged(&cases(mesh, rays)?, tests, replayed)))
 }
 
-fn failure(case: &Case) -> Failure {
+fn failure(case: &Case, wrong: &Wrong) -> Failure {
     Failure {
-        ray: Some(written(&case.ray)),
         corners: vec![vec![
             case.surface.side.to_array(),
             case.normal.to_array(),
             case.light.to_array(),
         ]],
-        ..Failure::default()
+        ..Failure::of_ray(&wrong.ray.unwrap_or(case.ray))
     }
 }

@@ -37,9 +37,14 @@ pub struct Case {
     pub exponent: f32,
 }
 
-/// A ball of 8 stacks and 16 slices, and lights at random.
+/// A ball of 8 stacks and 16 slices.
+pub fn ball() -> Mesh {
+    shapes::sphere(1.0, 224)
+}
+
+/// That ball, met from outside, and lights at random.
 pub fn on_ball(count: usize) -> Result<Vec<Case>, LabError> {
-    let mesh = shapes::sphere(1.0, 224);
+    let mesh = ball();
     let mut aim = Aim::new(&mesh, 43);
     let rays = (0..count).map(|_| at(aim.away(2.0), aim.within(0.4))).collect();
     let mut cases = cases(mesh.clone(), rays)?;

@@ -71,7 +71,7 @@ impl Failure {
 }
 
 /// A ray in numbers that give the same ray again.
-pub fn written(ray: &Ray) -> String {
+fn written(ray: &Ray) -> String {
     let mut numbers: Vec<String> = ray
         .origin
         .to_array()

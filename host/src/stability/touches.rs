@@ -1,7 +1,7 @@
 //! Triangles that cells lose by rounding.
 
 use super::builds::FAMILY;
-use super::cases::{About, Test, judged};
+use super::cases::{About, Test, Wrong, judged};
 use super::exhibits::structures::is_apart_in_f32;
 use super::report::{Role, RowReport};
 use super::tally::Failure;
@@ -39,15 +39,15 @@ pub fn rounding(count: usize) -> RowReport {
         ("in f64, with a margin", Role::Default, |touch| {
             let margin = CELL_MARGIN * 2.0 * touch.half;
             let children = overlapped_children(&touch.corners, touch.center, touch.half, margin);
-            (children >> touch.child & 1 == 0).then_some("missed")
+            Wrong::when(children >> touch.child & 1 == 0, "missed")
         }),
         ("plane test in f32", Role::Exhibit, |touch| {
             let offset = |bit: u32| if touch.child >> bit & 1 == 1 { 0.5 } else { -0.5 };
             let middle = touch.center + Vec3::new(offset(0), offset(1), offset(2)) * touch.half;
-            is_apart_in_f32(&touch.corners, middle, 0.5 * touch.half).then_some("missed")
+            Wrong::when(is_apart_in_f32(&touch.corners, middle, 0.5 * touch.half), "missed")
         }),
     ];
-    let failure = |touch: &Touch| Failure {
+    let failure = |touch: &Touch, _: &Wrong| Failure {
         corners: vec![touch.corners.map(|corner| corner.to_array()).into()],
         ..Failure::default()
     };

@@ -8,7 +8,7 @@ use oktant::oracle::judge::{Answer, judge_closest, t_error};
 use oktant::oracle::{Oracle, OracleRay};
 use oktant::structure::StructureOptions;
 use oktant_shared::hit::Hit;
-use oktant_shared::parts::TriangleKind;
+use oktant_shared::parts::{Parts, TraversalKind, TriangleKind};
 use oktant_shared::ray::{Ray, T_MAX};
 
 /// Triangles with corners at whole numbers, and rays from one to another.
@@ -41,8 +41,8 @@ const FRAME: [[u8; 3]; 3] = [[0, 0, 0], [2 * REACH, 0, 0], [0, 2 * REACH, 2 * RE
 const RELATIVE_T: f64 = 1e-6;
 
 impl Grid {
-    /// All traversals find what the oracle does. Of two triangles at one place any may be found: where rounding has put the
-    /// first a little nearer, the other's box may lie behind it.
+    /// All traversals find what the oracle does, and with the watertight test what brute force finds, to the bit: of
+    /// triangles at one place the one that comes out nearest, and of those at equal `t` the one with the lowest id.
     ///
     /// # Panics
     /// Where they do not.
@@ -53,13 +53,26 @@ impl Grid {
             .iter()
             .map(|ray| OracleRay::new(ray.origin, ray.direction, 0.0, T_MAX))
             .collect();
+        let mut watertight: Vec<(Parts, Vec<Hit>)> = Vec::new();
         let done = cast_everywhere(&mesh, &StructureOptions::default(), &rays, |parts, closest, any| {
+            if parts.triangle == TriangleKind::Watertight {
+                watertight.push((parts, closest.to_vec()));
+            }
             for ((ray, hit), any) in exact.iter().zip(closest).zip(any) {
                 assert_eq!(hit.is_hit(), *any, "{parts}: {ray:?}");
                 judge(&oracle, parts.triangle, ray, hit);
             }
         });
         done.unwrap_or_else(|error| panic!("{error}"));
+        let brute = watertight
+            .iter()
+            .find(|(parts, _)| parts.traversal == TraversalKind::Brute);
+        let (_, wanted) = brute.expect("brute force is offered with the watertight test");
+        for (parts, found) in &watertight {
+            for ((ray, found), wanted) in rays.iter().zip(found).zip(wanted) {
+                assert_eq!(found, wanted, "{parts}: {ray:?}");
+            }
+        }
     }
 
     fn mesh(&self) -> Mesh {
@@ -102,8 +115,8 @@ fn number(byte: u8, reach: u8) -> f32 {
     f32::from(byte % (2 * reach + 1)) - f32::from(reach)
 }
 
-/// Whether there is a hit, by the watertight test and by Pluecker's, follows from sums of products of whole numbers; the other tests round weights, and may err at
-/// edges.
+/// Whether there is a hit, by the watertight test and by Pluecker's, follows from sums of products of whole numbers; the
+/// other tests round weights, and may err at edges.
 fn judge(oracle: &Oracle, test: TriangleKind, ray: &OracleRay, hit: &Hit) {
     let answer = hit.is_hit().then(|| Answer {
         triangle: hit.triangle,
@@ -120,7 +133,7 @@ fn judge(oracle: &Oracle, test: TriangleKind, ray: &OracleRay, hit: &Hit) {
     match (right, answer) {
         (None, None) => {}
         (Some(right), Some(answer)) => {
-            // Of two at the same place, rounding may take either. Pluecker's `t` is a sum of quotients.
+            // Of two at the same place, the nearer by rounding. Pluecker's `t` is a sum of quotients.
             let met = oracle.meet(answer.triangle, ray).map(|met| met.t);
             let sum = match test {
                 TriangleKind::Watertight => 0.0,

@@ -1,5 +1,5 @@
-//! What must hold of the default on the CPU, with as many rays as one likes: `OKTANT_RAYS=10000000 cargo test --release
-//! --workspace --test holds -- --nocapture --test-threads 1`. docs/stability.md has the figures.
+//! What must hold of the default, with as many rays as one likes: `OKTANT_RAYS=10000000 cargo test --release --workspace
+//! --test holds -- --nocapture --test-threads 1` on the CPU, and with `--ignored` on a GPU. docs/stability.md has the figures.
 
 #![cfg(test)]
 
@@ -21,7 +21,7 @@ pub fn count() -> usize {
 }
 
 /// Rays that are made and traced at a time.
-const CHUNK: usize = 1 << 16;
+pub const CHUNK: usize = 1 << 16;
 
 /// Of so many rays, in chunks of which each has random numbers of its own, how many `fails` says fail.
 pub fn failing(count: usize, fails: impl Fn(&mut fastrand::Rng, usize) -> usize + Sync) -> usize {

@@ -58,7 +58,7 @@ pub fn group_of_buffers(
     })
 }
 
-/// The pipeline of an entry point that computes. Memory of workgroups is not made zero first: nothing reads any.
+/// The pipeline of an entry point that computes. Memory of workgroups is not made zero first: what is read was written before.
 pub fn compute_pipeline(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,

@@ -24,6 +24,20 @@ pub struct Departure<'a> {
 /// A way to make the ray that leaves.
 pub type Method = fn(&Departure<'_>) -> Ray;
 
+/// As oktant does, but as if all triangles were wide.
+pub fn wide(of: &Departure<'_>) -> Ray {
+    const ERROR: f32 = 1.0 / (1 << 24) as f32;
+    let (a, ab, ac) = (
+        of.triangle.a,
+        of.triangle.b - of.triangle.a,
+        of.triangle.c - of.triangle.a,
+    );
+    let extent = (ab.abs() + ac.abs() + (ab - ac).abs()).max_element();
+    let point = a + (ab * of.hit.u + ac * of.hit.v);
+    let error = point.abs() * (3.0 * ERROR) + Vec3::splat(6.0 * ERROR * extent);
+    Ray::new(point + of.normal * error.dot(of.normal.abs()), of.direction)
+}
+
 /// As oktant does.
 pub fn bounded(of: &Departure<'_>) -> Ray {
     Ray::new(secondary_origin(of.triangle, &of.hit, of.normal), of.direction)
