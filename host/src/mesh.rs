@@ -27,6 +27,17 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// The corners of a triangle, scene units.
+    #[inline]
+    pub fn corners(&self, [a, b, c]: &[u32; 3]) -> [Vec3; 3] {
+        // `map` of an array is a call.
+        [
+            self.positions[*a as usize],
+            self.positions[*b as usize],
+            self.positions[*c as usize],
+        ]
+    }
+
     /// A triangle as the kernel reads it.
     pub fn triangle(&self, id: u32) -> Triangle {
         let [a, b, c] = self.triangles[id as usize];

@@ -39,18 +39,10 @@ impl MortonOrder {
     /// # Errors
     /// [`BuildError`] where the mesh has nothing to sort.
     pub fn new(mesh: &Mesh) -> Result<Self, BuildError> {
-        let corners = |triangle: &[u32; 3]| {
-            let [a, b, c] = *triangle;
-            [
-                mesh.positions[a as usize],
-                mesh.positions[b as usize],
-                mesh.positions[c as usize],
-            ]
-        };
         let blocks = mesh.triangles.par_chunks(BLOCK).map(|triangles| {
             let (mut bounds, mut count) = (Bounds::EMPTY, 0);
             for triangle in triangles {
-                let corners = corners(triangle);
+                let corners = mesh.corners(triangle);
                 if has_area(&corners) {
                     bounds = bounds.and(Bounds::of(&Item::new(0, corners)));
                     count += 1;
@@ -82,7 +74,7 @@ impl MortonOrder {
         let blocks = words.par_chunks_mut(BLOCK).zip(mesh.triangles.par_chunks(BLOCK));
         blocks.enumerate().for_each(|(block, (words, triangles))| {
             for (id, (place, triangle)) in (block * BLOCK..).zip(words.iter_mut().zip(triangles)) {
-                let corners = corners(triangle);
+                let corners = mesh.corners(triangle);
                 *place = if degenerate == 0 || has_area(&corners) {
                     word(id, corners)
                 } else {
@@ -97,7 +89,11 @@ impl MortonOrder {
         words
             .par_chunk_by_mut(|a, b| a >> rest == b >> rest)
             .filter(|words| words.len() > CROWD)
-            .for_each(|words| refine(words, rest, |id| Item::new(0, corners(&mesh.triangles[id])).centre()));
+            .for_each(|words| {
+                refine(words, rest, |id| {
+                    Item::new(0, mesh.corners(&mesh.triangles[id])).centre()
+                })
+            });
         Ok(MortonOrder {
             words,
             rest,
@@ -117,8 +113,7 @@ impl MortonOrder {
             .with_min_len(BLOCK)
             .for_each(|(place, item)| {
                 let id = self.id(place);
-                let triangle = mesh.triangles[id as usize];
-                *item = Item::new(id, triangle.map(|index| mesh.positions[index as usize]));
+                *item = Item::new(id, mesh.corners(&mesh.triangles[id as usize]));
             });
         items
     }

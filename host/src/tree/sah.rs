@@ -10,7 +10,7 @@ use super::split::{Split, TRIALS, by_bins, by_trial, centres, halve};
 const HALVING_LEVEL: u32 = MAX_BINARY_DEPTH - 48;
 
 /// Most triangles of a subtree over which boxes are no longer kept together.
-const OPEN: usize = 1 << 14;
+const OPEN: usize = 1 << 13;
 
 /// How finely planes are tried.
 #[derive(Clone, Copy)]
