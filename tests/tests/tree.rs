@@ -11,10 +11,17 @@ use oktant::scene::Scene;
 use oktant::shapes::stadium;
 use oktant::structure::StructureOptions;
 use oktant::tree::{BinaryTree, BuildPreset, CollapseOptions, Costs, MAX_BINARY_DEPTH, MAX_LEAF, WideTree};
+use oktant_shared::brute::Brute;
+use oktant_shared::hit::Hit;
 use oktant_shared::octants::MAX_LEVEL;
+use oktant_shared::parts::TraversalKind;
+use oktant_shared::ray::Ray;
+use oktant_shared::traversal::{Standard, Traversal};
+use oktant_shared::triangle_test::Watertight;
 use oktant_tests::data::reference;
 use oktant_tests::meshes;
 use rayon::ThreadPoolBuilder;
+use rayon::prelude::*;
 use std::time::Instant;
 
 fn bare(corners: impl IntoIterator<Item = [Vec3; 3]>) -> Mesh {
@@ -31,6 +38,14 @@ fn bare(corners: impl IntoIterator<Item = [Vec3; 3]>) -> Mesh {
 fn moved(mut mesh: Mesh, offset: Vec3) -> Mesh {
     for position in &mut mesh.positions {
         *position += offset;
+    }
+    mesh
+}
+
+/// Every seventh triangle without area.
+fn with_flat_ones(mut mesh: Mesh) -> Mesh {
+    for [a, b, _] in mesh.triangles.iter_mut().step_by(7) {
+        *b = *a;
     }
     mesh
 }
@@ -62,6 +77,11 @@ fn hard_meshes() -> Vec<(&'static str, Mesh)> {
         ("fan", meshes::fan_64()),
         ("flat grid", meshes::flat_grid(64)),
         ("soup", meshes::soup(20_000, 1)),
+        ("soup with flat ones", with_flat_ones(meshes::soup(20_000, 3))),
+        (
+            "at the end of f32",
+            bare([[Vec3::ZERO, Vec3::Y, Vec3::Z].map(|p| p + Vec3::X * 2e38)]),
+        ),
         ("far away", moved(meshes::soup(5_000, 2), Vec3::new(1e6, -3e7, 2e5))),
         ("room", meshes::room()),
         ("stadium", stadium()),
@@ -153,6 +173,59 @@ fn the_number_of_threads_changes_nothing() {
                 assert!(same, "{name} {preset:?} {threads} threads: binary tree");
                 let same = wide.nodes == other_wide.nodes && wide.order == other_wide.order;
                 assert!(same, "{name} {preset:?} {threads} threads: wide tree");
+            }
+        }
+    }
+}
+
+/// Oracle: brute force. What is built is the same on any number of threads, and rays hit in it what they hit without it.
+#[test]
+fn rays_hit_what_they_hit_without_a_tree() {
+    let brute = StructureOptions::of(TraversalKind::Brute);
+    for (name, mesh) in [
+        ("soup", with_flat_ones(meshes::soup(30_000, 5))),
+        ("icosphere", meshes::icosphere(6)),
+        ("room", meshes::room()),
+    ] {
+        let all = Scene::new(&mesh, &brute, &silent).unwrap();
+        let (low, high) = mesh.bounds().unwrap();
+        let mut random = fastrand::Rng::with_seed(3);
+        let mut place = || low + (high - low) * Vec3::new(random.f32(), random.f32(), random.f32()) * 1.2;
+        let rays: Vec<Ray> = (0..300)
+            .map(|_| {
+                let origin = place();
+                Ray::new(origin, place() - origin)
+            })
+            .collect();
+        let expected: Vec<Hit> = rays
+            .par_iter()
+            .map(|ray| {
+                all.view()
+                    .identified(Brute::<Watertight>::closest_hit(&all.view(), ray))
+            })
+            .collect();
+        assert!(expected.iter().any(Hit::is_hit));
+        for preset in BuildPreset::ALL {
+            let options = StructureOptions {
+                preset,
+                ..StructureOptions::default()
+            };
+            let scenes =
+                [1, 2, 5].map(|threads| with_threads(threads, || Scene::new(&mesh, &options, &silent).unwrap()));
+            for other in &scenes[1..] {
+                let same = scenes[0].nodes == other.nodes
+                    && scenes[0].ids == other.ids
+                    && scenes[0].triangles == other.triangles;
+                assert!(same, "{name} {preset:?}: not the same on any number of threads");
+            }
+            let view = scenes[0].view();
+            for (ray, expected) in rays.iter().zip(&expected) {
+                let hit = view.identified(Standard::closest_hit(&view, ray));
+                assert_eq!(
+                    (hit.t, hit.triangle),
+                    (expected.t, expected.triangle),
+                    "{name} {preset:?} {ray:?}"
+                );
             }
         }
     }

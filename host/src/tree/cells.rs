@@ -151,6 +151,7 @@ impl<N: Copy + Zeroable + Send, E: Fn(&WideNode) -> N + Sync, S: Fn(&mut N, u32)
         }
         let first_slot = slots.first;
         let mut family = self.family(range, level, &mut slots);
+        (self.report)(slots.first as usize - first_slot as usize);
         let tasks: Vec<_> = family
             .inner()
             .map(|child| {
@@ -257,7 +258,7 @@ impl<N: Copy + Zeroable + Send, E: Fn(&WideNode) -> N + Sync, S: Fn(&mut N, u32)
         let mut next_slot = first_slot;
         for (child, made) in family.made[..family.count].iter().enumerate() {
             (low, high) = (low.min(made.low), high.max(made.high));
-            centres[child] = made.low + made.high;
+            centres[child] = made.low * 0.5 + made.high * 0.5;
             firsts[child] = next_slot;
             if family.ranges[child].len() <= LEAF {
                 next_slot += family.ranges[child].len() as u32;
@@ -269,7 +270,7 @@ impl<N: Copy + Zeroable + Send, E: Fn(&WideNode) -> N + Sync, S: Fn(&mut N, u32)
             ..WideNode::EMPTY
         };
         let mut next = first_node;
-        let places = place(Placing::Greedy, low + high, &centres[..family.count]);
+        let places = place(Placing::Greedy, low * 0.5 + high * 0.5, &centres[..family.count]);
         for (slot, child) in places.into_iter().enumerate() {
             let Some(child) = child.map(usize::from) else { continue };
             let made = &family.made[child];

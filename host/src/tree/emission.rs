@@ -145,9 +145,13 @@ impl<E> Writer<'_, E> {
         let mut centres = [Vec3::ZERO; WIDTH];
         for (centre, child) in centres.iter_mut().zip(found) {
             let child = &binary[*child as usize];
-            *centre = child.low + child.high;
+            *centre = child.low * 0.5 + child.high * 0.5;
         }
-        let slots = place(self.placing, parent.low + parent.high, &centres[..found.len()]);
+        let slots = place(
+            self.placing,
+            parent.low * 0.5 + parent.high * 0.5,
+            &centres[..found.len()],
+        );
         let mut wide = WideNode {
             first_node,
             first_triangle,

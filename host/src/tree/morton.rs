@@ -60,7 +60,8 @@ impl MortonOrder {
             return Err(BuildError::Extent(extent as f32));
         }
         let degenerate = (mesh.triangles.len() - count) as u32;
-        let rest = usize::BITS - (mesh.triangles.len() - 1).leading_zeros();
+        // One id more than there are, so that no word is all ones.
+        let rest = usize::BITS - mesh.triangles.len().leading_zeros();
         let bits = BITS.min((u64::BITS - rest) / 3);
         // A cube of cells; of centres doubled.
         let scale = Vec4::splat(0.5 * (1_u32 << bits) as f32 / size);

@@ -5,9 +5,9 @@ use super::items::{Bounds, Item};
 use super::place::{PARALLEL, Place};
 use super::split::{Split, TRIALS, by_bins, by_trial, centres, halve};
 
-/// From this level on items are halved whatever it costs: 2^24 of them, and as many in each, reach [`MAX_BINARY_DEPTH`]
-/// then.
-const HALVING_LEVEL: u32 = MAX_BINARY_DEPTH - 48;
+/// From this level on items are halved whatever it costs: 2^24 of them, and as many in each, do not reach
+/// [`MAX_BINARY_DEPTH`] then.
+const HALVING_LEVEL: u32 = MAX_BINARY_DEPTH - 52;
 
 /// Most triangles of a subtree over which boxes are no longer kept together.
 const OPEN: usize = 1 << 13;

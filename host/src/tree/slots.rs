@@ -13,7 +13,7 @@ pub enum Placing {
     Best,
 }
 
-/// The child in each slot, as an index into `children`; these are the centres of their boxes, doubled, as is the parent's.
+/// The child in each slot, as an index into `children`; these are the centres of their boxes, as is the parent's.
 ///
 /// The sum of how far the children lie towards the corner of their slot from the parent's centre is to be large: Ylitie,
 /// Karras and Laine 2017, section 3, who find the best by the auction algorithm. The corners are not normalised.

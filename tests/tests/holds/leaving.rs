@@ -189,7 +189,7 @@ fn triangles_of_any_size_are_not_met_again() {
         );
         assert!(triangles > 0);
         // Of the others, single precision does not know the normal.
-        assert!(returned == 0 || most > KNOWN);
+        assert!(returned == 0 || most > KNOWN && returned * 1000 < triangles * RAYS);
         least = most;
     }
 }
@@ -235,6 +235,6 @@ fn the_triangles_of_pbrt_are_not_met_again() {
         })
         .reduce(|| [0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
     println!("{returned} rays return, of {triangles} triangles of pbrt, 2 times {RAYS} rays each");
-    assert!(triangles * 500 > count() / 2);
+    assert!(triangles * 1000 > count() * 9);
     assert_eq!(returned, 0);
 }
