@@ -2,6 +2,9 @@
 
 use crate::picture::Picture;
 use glam::Vec4;
+use oktant_shared::display::steps;
+use oktant_shared::frame::Frame;
+use oktant_shared::present::mean_color;
 use rayon::prelude::*;
 
 /// Figures of a rendered picture.
@@ -16,22 +19,32 @@ pub struct Effort {
     pub greatest_cut: f64,
     /// The same, in the mean of all pixels.
     pub mean_cut: f64,
+    /// By how many steps of 8 bits a channel of the output can be off for that, in the pixel where it is most; 0 where nobody
+    /// said how bright things are.
+    pub greatest_steps: f64,
+    /// The same, in the mean of all pixels.
+    pub mean_steps: f64,
 }
 
 impl Effort {
-    /// Of a picture all of whose samples are taken.
-    pub fn new(picture: &Picture) -> Self {
+    /// Of a picture all of whose samples are taken; the frame says how bright things are, and how they are shown.
+    pub fn new(picture: &Picture, frame: Option<&Frame>) -> Self {
         let mut effort = picture
             .sums
             .par_iter()
             .zip(&picture.work)
             .map(|(sum, work)| {
                 let cut = cut(*sum, *work);
+                let off = frame.map_or(0.0, |frame| {
+                    f64::from(steps(frame, mean_color(*sum), frame.brightest * cut as f32))
+                });
                 Effort {
                     closest: f64::from(work.x),
                     shadow: f64::from(work.y),
                     greatest_cut: cut,
                     mean_cut: cut,
+                    greatest_steps: off,
+                    mean_steps: off,
                 }
             })
             .reduce(Effort::default, |a, b| Effort {
@@ -39,8 +52,12 @@ impl Effort {
                 shadow: a.shadow + b.shadow,
                 greatest_cut: a.greatest_cut.max(b.greatest_cut),
                 mean_cut: a.mean_cut + b.mean_cut,
+                greatest_steps: a.greatest_steps.max(b.greatest_steps),
+                mean_steps: a.mean_steps + b.mean_steps,
             });
-        effort.mean_cut /= picture.sums.len().max(1) as f64;
+        let pixels = picture.sums.len().max(1) as f64;
+        effort.mean_cut /= pixels;
+        effort.mean_steps /= pixels;
         effort
     }
 
@@ -88,12 +105,14 @@ mod tests {
             )
         };
         assert_eq!(
-            Effort::new(&picture),
+            Effort::new(&picture, None),
             Effort {
                 closest: 10.0,
                 shadow: 9.0,
                 greatest_cut: 0.125,
                 mean_cut: 0.125 / 3.0,
+                greatest_steps: 0.0,
+                mean_steps: 0.0,
             }
         );
     }
@@ -125,10 +144,10 @@ mod tests {
                 filter,
                 ..View::default()
             };
-            let picture = Cpu::new(scene.clone())
-                .render(&view.frame(&scene, 64, 48), &silent)
-                .unwrap();
-            let effort = Effort::new(&picture);
+            let frame = view.frame(&scene, 64, 48);
+            let picture = Cpu::new(scene.clone()).render(&frame, &silent).unwrap();
+            let effort = Effort::new(&picture, Some(&frame));
+            assert!(effort.greatest_steps > 0.1 * 255.0 && effort.greatest_steps > effort.mean_steps);
             assert!(effort.greatest_cut > 0.1 && effort.mean_cut < 0.1, "{effort:?}");
             assert!(effort.closest >= 64.0 * 48.0 * 4.0);
             for (sum, work) in picture.sums.iter().zip(&picture.work) {

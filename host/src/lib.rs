@@ -1,6 +1,7 @@
 //! The host of oktant: files, octree, back ends, viewer.
 
 mod accident;
+pub mod adaptive;
 pub mod aov;
 pub mod array_file;
 pub mod backend;

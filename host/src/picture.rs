@@ -2,6 +2,7 @@
 
 use crate::tone::Tone;
 use glam::{Vec3, Vec4};
+use oktant_shared::adaptive::{INTERPOLATED, Mark, UNKNOWN, samples_at};
 use oktant_shared::color::srgb_from_linear;
 use oktant_shared::present::mean_color;
 use rayon::prelude::*;
@@ -23,8 +24,11 @@ pub struct Picture {
     /// For each pixel the weighted sum of its samples' linear RGB, and the sum of the weights; 0 where nothing was
     /// written.
     pub sums: Vec<Vec4>,
-    /// For each pixel the closest-hit rays, the shadow rays and the weight that was cut, summed over its samples.
+    /// For each pixel the closest-hit rays, the shadow rays and the weight that was cut, summed over its samples; those too
+    /// that were given up for more.
     pub work: Vec<Vec4>,
+    /// For each pixel what adaptive sampling knows of it; empty where it was not used.
+    pub marks: Vec<Mark>,
 }
 
 impl Picture {
@@ -35,6 +39,7 @@ impl Picture {
             height,
             sums: vec![Vec4::ZERO; width as usize * height as usize],
             work: vec![Vec4::ZERO; width as usize * height as usize],
+            marks: Vec::new(),
         }
     }
 
@@ -42,25 +47,42 @@ impl Picture {
     pub fn of_sums(width: u32, height: u32, sums: Vec<Vec4>) -> Self {
         Picture {
             work: vec![Vec4::ZERO; sums.len()],
+            marks: Vec::new(),
             width,
             height,
             sums,
         }
     }
 
+    /// The samples of which the pixels consist, in the mean; an interpolated one has none. Of an adaptive picture.
+    pub fn mean_samples(&self) -> f64 {
+        let of = |mark: &Mark| match mark.level() {
+            UNKNOWN | INTERPOLATED => 0,
+            level => samples_at(level).samples,
+        };
+        let all: u64 = self.marks.par_iter().map(|mark| u64::from(of(mark))).sum();
+        all as f64 / self.marks.len().max(1) as f64
+    }
+
     /// The first rows, and the others.
     pub fn split(self, rows: u32) -> [Picture; 2] {
         let [upper_sums, lower_sums] = split(self.sums, self.width, rows);
         let [upper_work, lower_work] = split(self.work, self.width, rows);
-        let part = |height, sums, work| Picture {
+        let [upper_marks, lower_marks] = if self.marks.is_empty() {
+            [Vec::new(), Vec::new()]
+        } else {
+            split(self.marks, self.width, rows)
+        };
+        let part = |height, sums, work, marks| Picture {
             width: self.width,
             height,
             sums,
             work,
+            marks,
         };
         [
-            part(rows, upper_sums, upper_work),
-            part(self.height - rows, lower_sums, lower_work),
+            part(rows, upper_sums, upper_work, upper_marks),
+            part(self.height - rows, lower_sums, lower_work, lower_marks),
         ]
     }
 

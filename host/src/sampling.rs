@@ -1,24 +1,21 @@
 //! How a pixel is sampled.
 
 use clap::ValueEnum;
+use clap::builder::PossibleValue;
 use oktant_shared::sampling::{BOX, GAUSSIAN, R2, REGULAR, ROTATED, TENT};
 use serde::Deserialize;
 
 /// Samples of a pixel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Samples {
     /// One, in the middle.
     #[default]
-    #[value(name = "1")]
     One,
     /// Two by two.
-    #[value(name = "4")]
     Four,
     /// Four by four.
-    #[value(name = "16")]
     Sixteen,
     /// Eight by eight.
-    #[value(name = "64")]
     SixtyFour,
 }
 
@@ -39,6 +36,61 @@ impl Samples {
     /// In all.
     pub fn count(self) -> u32 {
         self.per_side() * self.per_side()
+    }
+}
+
+/// Samples of a pixel, the same for all of them or as many as each needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SampleCount {
+    /// So many, or at most so many.
+    pub samples: Samples,
+    /// Whether each pixel gets only as many as it needs.
+    pub adaptive: bool,
+}
+
+impl SampleCount {
+    /// All of them.
+    pub const ALL: [SampleCount; 8] = {
+        let mut all = [SampleCount {
+            samples: Samples::One,
+            adaptive: false,
+        }; 8];
+        let mut i = 0;
+        while i < 8 {
+            all[i].samples = Samples::ALL[i % 4];
+            all[i].adaptive = i >= 4;
+            i += 1;
+        }
+        all
+    };
+
+    /// As people write it: `16`, or `adaptive:16`.
+    pub fn name(self) -> &'static str {
+        match (self.adaptive, self.samples) {
+            (false, Samples::One) => "1",
+            (false, Samples::Four) => "4",
+            (false, Samples::Sixteen) => "16",
+            (false, Samples::SixtyFour) => "64",
+            (true, Samples::One) => "adaptive:1",
+            (true, Samples::Four) => "adaptive:4",
+            (true, Samples::Sixteen) => "adaptive:16",
+            (true, Samples::SixtyFour) => "adaptive:64",
+        }
+    }
+
+    /// The one of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|count| count.name() == name)
+    }
+}
+
+impl ValueEnum for SampleCount {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.name()))
     }
 }
 

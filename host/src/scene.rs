@@ -21,6 +21,7 @@ use oktant_shared::plane::Plane;
 use oktant_shared::scene::{Appearance, World};
 use oktant_shared::texture::{NO_TEXTURE, Texture};
 use oktant_shared::triangle::{Triangle, Vertex};
+use oktant_shared::variant::{GLASS, IMAGE, LIGHTS, MATERIALS, MIRRORS, PLAIN, PLANES, TEXTURES, Variant};
 use rayon::prelude::*;
 
 /// Everything that rays meet, ready for a back end.
@@ -66,6 +67,12 @@ pub struct Scene {
     pub environment: Environment,
     /// Ambient light, linear RGB.
     pub ambient: Vec3,
+    /// The brightest that is around, linear RGB.
+    pub brightest_around: Vec3,
+    /// What it needs of a kernel: bits of [`oktant_shared::variant`].
+    pub needs: u32,
+    /// The variant of the kernel's body that renders it with the default parts.
+    pub variant: Variant,
     /// What is looked at.
     pub focus: Focus,
     /// Triangles left out of the structure because they have no area.
@@ -164,6 +171,7 @@ impl Scene {
             ..white_light()
         });
         let lights: Vec<_> = lights.collect();
+        let brightest_around = brightest_around(&model.environment, &model.textures, &model.texels);
         let mut scene = Scene {
             parts,
             root: structure.root,
@@ -184,18 +192,68 @@ impl Scene {
             texels: never_empty(model.texels),
             environment: model.environment,
             ambient: model.ambient,
+            brightest_around,
+            needs: 0,
+            variant: Variant::Everything,
             focus,
             degenerate: structure.degenerate,
             duplicates: structure.duplicates,
             low,
             high,
         };
-        let is_fast = scene.is_plain() && scene.parts == Parts::default();
-        if scene.material_ids.len() < scene.triangles.len() && !is_fast {
-            // Only what renders plain scenes with the default parts does without, whatever the number of materials.
-            scene.material_ids = vec![0; scene.triangles.len()];
-        }
+        scene.needs = scene.needs();
+        scene.variant = Variant::least(scene.needs);
+        scene.lay_out_materials();
         scene
+    }
+
+    /// To be rendered by another variant than the least that suffices; none where it does not.
+    pub fn rendered_by(mut self, variant: Variant) -> Option<Self> {
+        if !variant.suffices(self.needs) {
+            return None;
+        }
+        self.variant = variant;
+        self.lay_out_materials();
+        Some(self)
+    }
+
+    /// Only what looks at no more than the first material does without the material of each triangle.
+    fn lay_out_materials(&mut self) {
+        let looks = self.parts != Parts::default() || self.variant.offers() & MATERIALS != 0;
+        if looks && self.material_ids.len() < self.triangles.len() {
+            self.material_ids = vec![0; self.triangles.len()];
+        }
+    }
+
+    /// What is in it that takes more than one plain material and one light.
+    fn needs(&self) -> u32 {
+        let is_used = self.used_materials();
+        let used = || self.materials.iter().zip(&is_used).filter(|(_, is_used)| **is_used);
+        let any = |is: fn(&Material) -> bool| used().any(|(material, _)| is(material));
+        let need = |is: bool, bit: u32| if is { bit } else { 0 };
+        need(is_used[1..].contains(&true), MATERIALS)
+            | need(self.light_count > 0 || self.light.kind == AREA, LIGHTS)
+            | need(self.plane_count > 0, PLANES)
+            | need(any(needs_coordinates), TEXTURES)
+            | need(self.environment.texture != NO_TEXTURE, IMAGE)
+            | need(any(|material| material.mirror != Vec3::ZERO), MIRRORS)
+            | need(any(Material::is_transmissive), GLASS)
+    }
+
+    /// Which materials some triangle or plane has.
+    fn used_materials(&self) -> Vec<bool> {
+        let mut is_used = vec![false; self.materials.len()];
+        if self.material_ids.len() < self.triangles.len() {
+            is_used[0] = true;
+        } else {
+            for id in &self.material_ids {
+                is_used[*id as usize] = true;
+            }
+        }
+        for plane in &self.planes[..self.plane_count as usize] {
+            is_used[plane.material as usize] = true;
+        }
+        is_used
     }
 
     /// What a traversal reads.
@@ -229,21 +287,46 @@ impl Scene {
 
     /// Whether some material lets light through.
     pub fn is_transparent(&self) -> bool {
-        self.materials.iter().any(Material::is_transmissive)
+        self.needs & GLASS != 0
     }
 
-    /// Whether the kernel's variant for scenes that need little renders this one: no more than one opaque material
-    /// without mirror and textures, one light that is no area, no plane, no image around.
+    /// Whether it needs nothing but what every variant has.
     pub fn is_plain(&self) -> bool {
-        let material = &self.materials[0];
-        self.materials.len() == 1
-            && !material.is_transmissive()
-            && material.mirror == Vec3::ZERO
-            && !needs_coordinates(material)
-            && self.light_count == 0
-            && self.light.kind != AREA
-            && self.plane_count == 0
-            && self.environment.texture == NO_TEXTURE
+        self.needs == PLAIN
+    }
+
+    /// The brightest that a ray can meet, linear RGB, with its first light moved: a surface in the light of all lamps, or
+    /// what is around. Through highlights on mirrors and glass it may see more.
+    pub fn brightest(&self, light: &Light) -> Vec3 {
+        let others = self.lights.iter().take(self.light_count as usize);
+        let incident: Vec3 = std::iter::once(light)
+            .chain(others)
+            .map(|light| self.brightest_arriving(light))
+            .sum();
+        let own = self.materials.iter().map(|material| {
+            material.base * (material.ambient * self.ambient)
+                + (material.base * material.diffuse + material.specular) * incident
+        });
+        own.fold(self.brightest_around, Vec3::max).max(incident)
+    }
+
+    /// The most of a light that can arrive anywhere on the mesh.
+    fn brightest_arriving(&self, light: &Light) -> Vec3 {
+        if light.falloff_radius == 0.0 {
+            return light.color;
+        }
+        let nearest = if self.plane_count > 0 {
+            0.0
+        } else {
+            let reach = if light.kind == AREA {
+                light.edge_u.length() + light.edge_v.length()
+            } else {
+                0.0
+            };
+            let outside = light.position.clamp(self.low, self.high).distance(light.position);
+            (outside - reach).max(0.0)
+        };
+        light.color / nearest.max(light.falloff_radius).powi(2)
     }
 
     /// Centre of the bounding box, scene units.
@@ -274,6 +357,30 @@ impl Scene {
             + size_of_val(self.textures.as_slice())
             + size_of_val(self.texels.as_slice())
     }
+}
+
+/// The brightest colour of an environment.
+fn brightest_around(environment: &Environment, textures: &[Texture], texels: &[u32]) -> Vec3 {
+    if environment.texture == NO_TEXTURE {
+        return environment.zenith.max(environment.horizon).max(environment.nadir);
+    }
+    let texture = textures[environment.texture as usize];
+    if !texture.is_image() {
+        return Vec3::splat(environment.strength);
+    }
+    let first = texture.first as usize;
+    let count = texture.width as usize * texture.height as usize;
+    // One texel of an image is its colour in the middle of the texel.
+    let single = Texture {
+        first: 0,
+        width: 1,
+        height: 1,
+        ..texture
+    };
+    let colors = texels[first..first + count]
+        .par_iter()
+        .map(|texel| single.color(std::slice::from_ref(texel), Vec2::splat(0.5)));
+    colors.reduce(|| Vec3::ZERO, Vec3::max) * environment.strength
 }
 
 fn never_empty<T: Zeroable>(mut elements: Vec<T>) -> Vec<T> {

@@ -11,6 +11,7 @@ use oktant_shared::render::sample_ray;
 use oktant_shared::sampling::REGULAR;
 use oktant_shared::scene::World;
 use oktant_shared::surface::Surface;
+use oktant_shared::variant::{EVERYTHING, PLAIN};
 use rayon::prelude::*;
 
 /// The first surfaces, row by row from the upper left.
@@ -72,6 +73,7 @@ pub(crate) fn middles(frame: &Frame) -> Frame {
         samples_per_side: 1,
         first_sample: 0,
         sample_count: 1,
+        most_samples: 0,
         pattern: REGULAR,
         ..*frame
     }
@@ -79,11 +81,11 @@ pub(crate) fn middles(frame: &Frame) -> Frame {
 
 /// What makes a scene's surfaces of its hits.
 pub(crate) fn surface_of(scene: &Scene) -> fn(&Frame, &World<'_>, &Ray, &Hit) -> Surface {
-    // Of a plain scene no material ids are there, and nothing bends its normals.
-    if scene.is_plain() {
-        Surface::new::<false>
+    // Of a plain scene no material ids need be there, and nothing bends its normals.
+    if scene.material_ids.len() < scene.triangles.len() {
+        Surface::new::<PLAIN>
     } else {
-        Surface::new::<true>
+        Surface::new::<EVERYTHING>
     }
 }
 

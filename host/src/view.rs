@@ -12,6 +12,7 @@ use oktant_shared::frame::{FLAT, Frame, PARTS_SHIFT, TRANSPARENT};
 use oktant_shared::light::{AREA, DIRECTIONAL, Light};
 use oktant_shared::orbit::{Orbit, Up};
 use oktant_shared::stereo::MONO;
+use oktant_shared::whitted::MAX_DEPTH;
 use serde::Deserialize;
 
 /// How surfaces get their normals.
@@ -74,15 +75,27 @@ pub struct View {
     pub pattern: Pattern,
     /// How much each counts.
     pub filter: Filter,
-    /// How many times a ray may be reflected or refracted, at most [`oktant_shared::whitted::MAX_DEPTH`].
+    /// Whether each pixel gets only as many samples as it needs, up to [`View::samples`].
+    pub adaptive: bool,
+    /// How far a pixel of few samples may be off, as a part of the output's range, 0 to 1.
+    pub tolerance: f32,
+    /// Edge of the blocks of pixels that adaptive sampling may interpolate: 1 (none), 2, 4 or 8.
+    pub block: u32,
+    /// How many times a ray may be reflected or refracted, at most [`MAX_DEPTH`].
     pub depth: u32,
-    /// Rays are not followed that could change no channel by more than this part of their light.
+    /// Rays are not followed as long as all that is left out can change no channel of the output by more than so many steps
+    /// of 8 bits; 0: all are.
     pub cutoff: f32,
     /// Whether, and how, there are two eyes.
     pub stereo: Option<Stereo>,
     /// How the light is made to fit the screen.
     pub tone: Tone,
 }
+
+/// [`View::tolerance`] where nobody says it: two steps of 8 bits and a half.
+pub const TOLERANCE: f32 = 0.01;
+/// [`View::cutoff`] where nobody says it: rounded to 8 bits, no channel is seen to be off by more than a step.
+pub const CUTOFF: f32 = 0.5;
 
 impl Default for View {
     fn default() -> Self {
@@ -104,8 +117,11 @@ impl Default for View {
             samples: Samples::One,
             pattern: Pattern::Regular,
             filter: Filter::Box,
-            depth: 5,
-            cutoff: 1.0 / 512.0,
+            adaptive: false,
+            tolerance: TOLERANCE,
+            block: 1,
+            depth: MAX_DEPTH,
+            cutoff: CUTOFF,
             stereo: None,
             tone: Tone::default(),
         }
@@ -133,21 +149,24 @@ impl View {
             stereo.part_eyes(&mut camera);
         }
         let is_flat = self.shading == Shading::Flat;
+        let light = placed(&scene.light, &orbit(&self.light, focus.center));
+        // An adaptive picture begins with one sample a pixel.
+        let samples = if self.adaptive { Samples::One } else { self.samples };
         Frame {
             camera,
             root: scene.root,
-            light: placed(&scene.light, &orbit(&self.light, focus.center)),
+            light,
             environment: scene.environment,
             ambient: scene.ambient,
             features: if is_flat { FLAT } else { 0 }
                 | if scene.is_transparent() { TRANSPARENT } else { 0 }
                 | scene.parts.number() << PARTS_SHIFT,
-            samples: self.samples.count(),
+            samples: samples.count(),
             pattern: self.pattern.code(),
             filter: self.filter.code(),
-            samples_per_side: self.samples.per_side(),
+            samples_per_side: samples.per_side(),
             first_sample: 0,
-            sample_count: self.samples.count(),
+            sample_count: samples.count(),
             light_count: scene.light_count,
             plane_count: scene.plane_count,
             depth: self.depth,
@@ -155,6 +174,16 @@ impl View {
             stereo: self.stereo.map_or(MONO, |stereo| stereo.code()),
             first_row: 0,
             media: media_at(scene, camera.eye).to_eye(),
+            brightest: scene.brightest(&light),
+            exposure: self.tone.factor(),
+            curve: self.tone.curve.code(),
+            tolerance: self.tolerance,
+            block: self.block,
+            most_samples: if self.adaptive { self.samples.count() } else { 0 },
+            is_listed: 0,
+            first_listed: 0,
+            reserved_a: 0,
+            reserved_b: 0,
         }
     }
 }

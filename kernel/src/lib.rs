@@ -11,6 +11,7 @@
 
 #[macro_use]
 mod cast;
+pub mod choose;
 pub mod present;
 pub mod probe;
 pub mod render;

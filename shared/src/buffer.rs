@@ -20,6 +20,21 @@ pub fn load<T: Copy>(elements: &[T], index: u32) -> T {
     }
 }
 
+/// The place of the element at `index`, as unchecked as for [`load`].
+#[inline(always)]
+pub fn place<T>(elements: &mut [T], index: u32) -> &mut T {
+    #[cfg(target_arch = "spirv")]
+    {
+        use spirv_std::arch::IndexUnchecked;
+        // SAFETY: the host binds a buffer that has it.
+        unsafe { elements.index_unchecked_mut(index as usize) }
+    }
+    #[cfg(not(target_arch = "spirv"))]
+    {
+        &mut elements[index as usize]
+    }
+}
+
 /// Writes the element at `index`, which the caller has compared with the length.
 #[inline(always)]
 pub fn store<T: Copy>(elements: &mut [T], index: u32, value: T) {

@@ -47,7 +47,8 @@ pub struct Frame {
     pub plane_count: u32,
     /// How many times a ray may be reflected or refracted, at most [`crate::whitted::MAX_DEPTH`].
     pub depth: u32,
-    /// Rays are not followed that could change no channel by more than this part of their light.
+    /// Rays are not followed as long as all that is left out can change no channel of the output by more than so many
+    /// steps of 8 bits (see [`crate::display`]); 0: all are.
     pub cutoff: f32,
     /// How two eyes share the picture: one of [`crate::stereo`].
     pub stereo: u32,
@@ -55,9 +56,30 @@ pub struct Frame {
     pub first_row: u32,
     /// What the camera is inside of: see [`crate::medium::Media::of_eye`].
     pub media: UVec4,
+    /// The brightest that a ray can see, linear RGB.
+    pub brightest: Vec3,
+    /// What colours are multiplied with before they are shown.
+    pub exposure: f32,
+    /// How they are made to fit the output: one of [`crate::tone`].
+    pub curve: u32,
+    /// How far a pixel may be off, as a part of the output's range, before [`crate::adaptive`] gives it more samples.
+    pub tolerance: f32,
+    /// Edge of the blocks of pixels that may be interpolated, a power of two; 1 where none may (see [`crate::adaptive`]).
+    pub block: u32,
+    /// Samples that a pixel may get, 1, 4, 16 or 64, where each gets as many as it needs; 0 where all get
+    /// [`Frame::samples`].
+    pub most_samples: u32,
+    /// Whether this pass renders the pixels of a list (see [`crate::adaptive`]), 0 or 1.
+    pub is_listed: u32,
+    /// First place in that list.
+    pub first_listed: u32,
+    /// Fills the rows; fields of their own because an array in a uniform buffer needs 16 bytes an element.
+    pub reserved_a: u32,
+    /// Fills the rows.
+    pub reserved_b: u32,
 }
 
-const _: () = assert!(size_of::<Frame>() == 304);
+const _: () = assert!(size_of::<Frame>() == 352);
 
 /// From this bit on, [`Frame::features`] holds the number of the parts that rays are traced with.
 pub const PARTS_SHIFT: u32 = 24;

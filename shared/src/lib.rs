@@ -16,6 +16,7 @@
 extern crate std;
 
 pub mod aabb;
+pub mod adaptive;
 pub mod arithmetic;
 pub mod bindings;
 pub mod box_test;
@@ -25,6 +26,7 @@ pub mod bvh2;
 pub mod camera;
 pub mod candidate;
 pub mod color;
+pub mod display;
 pub mod entered;
 pub mod environment;
 pub mod frame;
@@ -59,5 +61,6 @@ pub mod trace;
 pub mod traversal;
 pub mod triangle;
 pub mod triangle_test;
+pub mod variant;
 pub mod walk;
 pub mod whitted;

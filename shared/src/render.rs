@@ -1,23 +1,26 @@
 //! The whole body of the kernel.
 
+use crate::adaptive::{Mark, level_of, packed};
+use crate::arithmetic::max_component;
 use crate::frame::Frame;
 use crate::hit::Hit;
 use crate::medium::Media;
 use crate::plane::PLANE;
 use crate::ray::Ray;
-use crate::sampling::sample;
+use crate::sampling::{Batch, sample};
 use crate::scene::World;
 use crate::shading::{Viewer, shade};
 use crate::stereo::EyeView;
 use crate::surface::Surface;
 use crate::trace::closest_hit;
 use crate::traversal::Traversal;
-use crate::whitted::{Traced, trace};
+use crate::variant::{EVERYTHING, GLASS, MIRRORS};
+use crate::whitted::{Traced, surroundings, trace};
 use glam::{UVec2, Vec2, Vec3, Vec4};
 
 /// The ray of a pixel's sample; where two eyes share the pixel, the left one's.
 pub fn sample_ray(frame: &Frame, pixel: UVec2, number: u32) -> Ray {
-    let place = sample(frame, number).place;
+    let place = sample(frame, &Batch::of_frame(frame), number).place;
     ray_of(frame, &EyeView::new(frame, pixel, 0), place)
 }
 
@@ -32,37 +35,52 @@ fn ray_of(frame: &Frame, view: &EyeView, place: Vec2) -> Ray {
 pub struct Pixel {
     /// The weighted sum of the colours, linear RGB, of this pass's samples, and in `w` the sum of their weights.
     pub sum: Vec4,
-    /// Closest-hit rays, shadow rays, and the weight that was cut (see [`Traced`]) times the sample's, summed over the
-    /// samples; `w` is 0.
+    /// Closest-hit rays, shadow rays, and the weight that was cut (see [`Traced`]), largest channel, times the sample's,
+    /// summed over the samples; `w` is 0.
     pub work: Vec4,
+    /// What adaptive sampling wants to know of them; of the middle, if the first of them is the pixel's only one.
+    pub mark: Mark,
 }
 
-/// Renders this pass's samples of a pixel.
-///
-/// `FULL` renders everything. Without it, a scene that has no more than one opaque material without textures, one light
-/// that is no area, and no planes is rendered alike and faster; what else there is, is ignored.
-pub fn render_pixel<V: Traversal, const FULL: bool>(frame: &Frame, world: &World<'_>, pixel: UVec2) -> Pixel {
+/// Renders a batch of a pixel's samples, there is at least one, with what the needs of [`crate::variant`] have; what
+/// else there is, is ignored.
+pub fn render_pixel<V: Traversal, const NEEDS: u32>(
+    frame: &Frame,
+    world: &World<'_>,
+    pixel: UVec2,
+    batch: &Batch,
+) -> Pixel {
     let mut result = Pixel {
         sum: Vec4::ZERO,
         work: Vec4::ZERO,
+        mark: Mark::of_level(level_of(batch.samples)),
     };
     let eyes = EyeView::eyes(frame);
     let mut number = 0;
     loop {
-        let sample = sample(frame, frame.first_sample + number / eyes);
+        let sample = sample(frame, batch, batch.first + number / eyes);
         let view = EyeView::new(frame, pixel, number % eyes);
         let ray = ray_of(frame, &view, sample.place);
-        let traced = if FULL {
-            trace::<V>(frame, world, &ray)
+        let traced = if NEEDS & (MIRRORS | GLASS) != 0 {
+            trace::<V, NEEDS>(frame, world, &ray)
         } else {
-            first_surface::<V>(frame, world, &ray)
+            first_surface::<V, NEEDS>(frame, world, &ray)
         };
         let (color, weight) = view.share(frame, traced.color * sample.weight, sample.weight);
         result.sum += color.extend(weight);
-        let cut = traced.cut * sample.weight;
+        let cut = max_component(traced.cut) * sample.weight;
         result.work += Vec4::new(traced.rays as f32, traced.shadow_rays as f32, cut, 0.0);
+        if frame.most_samples != 0 {
+            if number < eyes {
+                // What either eye sees.
+                result.mark.seen = result.mark.seen.rotate_left(16) ^ traced.seen;
+                result.mark.nearness = traced.nearness;
+                result.mark.normal = packed(traced.normal);
+            }
+            result.mark = result.mark.with(frame, traced.color);
+        }
         number += 1;
-        if number >= frame.sample_count * eyes {
+        if number >= batch.count * eyes {
             return result;
         }
     }
@@ -70,29 +88,32 @@ pub fn render_pixel<V: Traversal, const FULL: bool>(frame: &Frame, world: &World
 
 /// The colour of the first surface that a ray meets.
 #[inline]
-fn first_surface<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Traced {
+fn first_surface<V: Traversal, const NEEDS: u32>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Traced {
     let mut traced = Traced {
         rays: 1,
         ..Traced::NOTHING
     };
-    let hit = closest_hit::<V, false>(frame, world, ray);
+    let hit = closest_hit::<V, NEEDS>(frame, world, ray);
     traced.color = if hit.is_hit() {
-        let surface = Surface::new::<false>(frame, world, ray, &hit);
+        let surface = Surface::new::<NEEDS>(frame, world, ray, &hit);
+        traced.sees(surface.material_id + 1);
+        traced.meets(&hit, &surface);
         let viewer = Viewer {
             direction: -ray.direction.normalize(),
             weight: Vec3::ONE,
             media: Media::AIR,
+            is_seen: true,
         };
-        shade::<V, false>(frame, world, &surface, &viewer, &mut traced)
+        shade::<V, NEEDS>(frame, world, &surface, &viewer, &mut traced)
     } else {
-        frame.environment.gradient(ray.direction)
+        surroundings::<NEEDS>(frame, world, ray.direction)
     };
     traced
 }
 
 /// What the first sample of this pass sees through a pixel.
 pub fn hit_pixel<V: Traversal>(frame: &Frame, world: &World<'_>, pixel: UVec2) -> Hit {
-    let hit = closest_hit::<V, true>(frame, world, &sample_ray(frame, pixel, frame.first_sample));
+    let hit = closest_hit::<V, EVERYTHING>(frame, world, &sample_ray(frame, pixel, frame.first_sample));
     if hit.triangle & PLANE != 0 {
         hit
     } else {

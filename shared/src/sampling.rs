@@ -30,10 +30,64 @@ pub struct Sample {
     pub weight: f32,
 }
 
-/// The sample with this number, below [`Frame::samples`].
+/// Samples of a pixel that are taken together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Batch {
+    /// Samples of the pixel in all: 1, 4, 16 or 64.
+    pub samples: u32,
+    /// Along each side of it, if they lie in a regular grid.
+    pub per_side: u32,
+    /// The first that is taken.
+    pub first: u32,
+    /// How many are.
+    pub count: u32,
+}
+
+impl Batch {
+    /// Those of a frame.
+    #[inline]
+    pub fn of_frame(frame: &Frame) -> Self {
+        Batch {
+            samples: frame.samples,
+            per_side: frame.samples_per_side,
+            first: frame.first_sample,
+            count: frame.sample_count,
+        }
+    }
+
+    /// All of a pixel with so many along each side.
+    #[inline]
+    pub const fn whole(per_side: u32) -> Self {
+        Batch {
+            samples: per_side * per_side,
+            per_side,
+            first: 0,
+            count: per_side * per_side,
+        }
+    }
+
+    /// Of these, those that are also among a frame's; none where the count is 0.
+    #[inline]
+    #[must_use]
+    pub fn among(self, frame: &Frame) -> Self {
+        let end = frame.first_sample + frame.sample_count;
+        let end = if end < self.samples { end } else { self.samples };
+        Batch {
+            first: frame.first_sample,
+            count: if end > frame.first_sample {
+                end - frame.first_sample
+            } else {
+                0
+            },
+            ..self
+        }
+    }
+}
+
+/// The sample with this number, below [`Batch::samples`].
 #[inline]
-pub fn sample(frame: &Frame, number: u32) -> Sample {
-    let even = place(frame, number);
+pub fn sample(frame: &Frame, batch: &Batch, number: u32) -> Sample {
+    let even = place(frame.pattern, batch, number);
     let radius = if frame.filter == BOX {
         0.5
     } else if frame.filter == TENT {
@@ -50,14 +104,14 @@ pub fn sample(frame: &Frame, number: u32) -> Sample {
 
 /// The place of a sample in the unit square.
 #[inline]
-fn place(frame: &Frame, number: u32) -> Vec2 {
-    let side = frame.samples_per_side;
-    if frame.pattern == ROTATED {
+fn place(pattern: u32, batch: &Batch, number: u32) -> Vec2 {
+    let side = batch.per_side;
+    if pattern == ROTATED {
         // The lattice of which a turned grid consists has side^2 + 1 points; one of them is left out.
         let row = ((number + 1) * side - 1) % (side * side + 1);
-        return vec2(number as f32 + 0.5, row as f32 + 0.5) / frame.samples as f32;
+        return vec2(number as f32 + 0.5, row as f32 + 0.5) / batch.samples as f32;
     }
-    if frame.pattern == R2 {
+    if pattern == R2 {
         let at = |step: f32| {
             let x = 0.5 + number as f32 * step;
             x - x.floor()
@@ -83,10 +137,8 @@ mod tests {
     use super::*;
     use bytemuck::Zeroable;
 
-    fn frame(side: u32, pattern: u32, filter: u32) -> Frame {
+    fn frame(pattern: u32, filter: u32) -> Frame {
         Frame {
-            samples: side * side,
-            samples_per_side: side,
             pattern,
             filter,
             ..Frame::zeroed()
@@ -97,7 +149,7 @@ mod tests {
     fn one_sample_is_in_the_middle() {
         for pattern in [REGULAR, ROTATED, R2] {
             for filter in [BOX, TENT, GAUSSIAN] {
-                let sample = sample(&frame(1, pattern, filter), 0);
+                let sample = sample(&frame(pattern, filter), &Batch::whole(1), 0);
                 assert_eq!((sample.place, sample.weight), (vec2(0.5, 0.5), 1.0));
             }
         }
@@ -106,17 +158,18 @@ mod tests {
     #[test]
     fn a_turned_grid_fills_every_row_and_column_once() {
         for side in [2, 4, 8] {
-            let frame = frame(side, ROTATED, BOX);
+            let frame = frame(ROTATED, BOX);
             let mut rows = [false; 64];
             for number in 0..side * side {
-                let place = sample(&frame, number).place * (side * side) as f32;
+                let place = sample(&frame, &Batch::whole(side), number).place * (side * side) as f32;
                 assert_eq!(place.x, number as f32 + 0.5);
                 rows[place.y as usize] = true;
             }
             assert_eq!(rows.iter().filter(|&&row| row).count(), (side * side) as usize);
         }
         // The four of rotated-grid supersampling.
-        let places: [Vec2; 4] = core::array::from_fn(|i| sample(&frame(2, ROTATED, BOX), i as u32).place * 8.0);
+        let places: [Vec2; 4] =
+            core::array::from_fn(|i| sample(&frame(ROTATED, BOX), &Batch::whole(2), i as u32).place * 8.0);
         assert_eq!(places, [vec2(1.0, 3.0), vec2(3.0, 7.0), vec2(5.0, 1.0), vec2(7.0, 5.0)]);
     }
 
@@ -126,7 +179,7 @@ mod tests {
             for side in [2, 4, 8] {
                 let count = side * side;
                 let mean: Vec2 = (0..count)
-                    .map(|number| sample(&frame(side, pattern, BOX), number).place)
+                    .map(|number| sample(&frame(pattern, BOX), &Batch::whole(side), number).place)
                     .sum::<Vec2>()
                     / count as f32;
                 let tolerance = if pattern == R2 { 0.6 / side as f32 } else { 1e-6 };
@@ -136,10 +189,31 @@ mod tests {
     }
 
     #[test]
+    fn passes_take_each_sample_once() {
+        for (samples, step) in [(4, 1), (16, 3), (16, 16), (64, 13)] {
+            let whole = Batch::whole(u32::isqrt(samples));
+            let mut next = 0;
+            for first_sample in (0..64).step_by(step as usize) {
+                let pass = Frame {
+                    first_sample,
+                    sample_count: step,
+                    ..Frame::zeroed()
+                };
+                let batch = whole.among(&pass);
+                if batch.count > 0 {
+                    assert_eq!((batch.first, batch.samples), (next, samples));
+                    next += batch.count;
+                }
+            }
+            assert_eq!(next, samples);
+        }
+    }
+
+    #[test]
     fn filters_fall_towards_the_outside() {
         for filter in [TENT, GAUSSIAN] {
-            let frame = frame(8, REGULAR, filter);
-            let weights: [f32; 64] = core::array::from_fn(|i| sample(&frame, i as u32).weight);
+            let frame = frame(REGULAR, filter);
+            let weights: [f32; 64] = core::array::from_fn(|i| sample(&frame, &Batch::whole(8), i as u32).weight);
             assert!(weights.iter().all(|&weight| (0.0..1.0).contains(&weight)));
             assert!(
                 weights[0] < 0.05 && weights[27] > 0.7,

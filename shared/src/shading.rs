@@ -11,6 +11,7 @@ use crate::scene::World;
 use crate::shadow::visibility;
 use crate::surface::Surface;
 use crate::traversal::Traversal;
+use crate::variant::LIGHTS;
 use crate::whitted::Traced;
 use glam::Vec3;
 #[cfg(target_arch = "spirv")]
@@ -25,6 +26,8 @@ pub struct Viewer {
     pub weight: Vec3,
     /// What is between the viewer and the surface.
     pub media: Media,
+    /// Whether what is in shadow goes into [`Traced::seen`].
+    pub is_seen: bool,
 }
 
 /// A part of a light's colour that no picture of 16 bits shows.
@@ -37,9 +40,9 @@ pub const NEGLIGIBLE: f32 = 1.0 / (1 << 16) as f32;
 /// A light of which less than [`NEGLIGIBLE`] would arrive at the eye sends no shadow ray. `traced` counts the shadow rays,
 /// and as cut what was left out.
 ///
-/// Both sides of a triangle are lit alike: the normal is turned to the viewer. With `FULL` false there is only the
-/// frame's light.
-pub fn shade<V: Traversal, const FULL: bool>(
+/// Both sides of a triangle are lit alike: the normal is turned to the viewer. Without [`LIGHTS`] among its needs
+/// there is only the frame's light, which has no area.
+pub fn shade<V: Traversal, const NEEDS: u32>(
     frame: &Frame,
     world: &World<'_>,
     surface: &Surface,
@@ -47,8 +50,8 @@ pub fn shade<V: Traversal, const FULL: bool>(
     traced: &mut Traced,
 ) -> Vec3 {
     let mut color = surface.base * surface.material.ambient * frame.ambient;
-    if !FULL {
-        return color + lit::<V, FULL>(frame, world, surface, viewer, &frame.light, traced);
+    if NEEDS & LIGHTS == 0 {
+        return color + lit::<V, NEEDS>(frame, world, surface, viewer, &frame.light, traced);
     }
     let mut i = 0;
     // One call for all lights: each would be a copy of the whole traversal in the kernel. Asked at its beginning whether to
@@ -59,13 +62,13 @@ pub fn shade<V: Traversal, const FULL: bool>(
         } else {
             load(world.appearance.lights, i - 1)
         };
-        color += lit::<V, FULL>(frame, world, surface, viewer, &light, traced);
+        color += lit::<V, NEEDS>(frame, world, surface, viewer, &light, traced);
         i += 1;
     }
     color
 }
 
-fn lit<V: Traversal, const FULL: bool>(
+fn lit<V: Traversal, const NEEDS: u32>(
     frame: &Frame,
     world: &World<'_>,
     surface: &Surface,
@@ -73,21 +76,33 @@ fn lit<V: Traversal, const FULL: bool>(
     light: &Light,
     traced: &mut Traced,
 ) -> Vec3 {
-    if !FULL {
-        return lit_by::<V, FULL>(frame, world, surface, viewer, light, 0, traced);
-    }
-    let count = light.sample_count();
+    let (asked, dark) = (traced.shadow_rays, traced.dark);
     let mut color = Vec3::ZERO;
-    let mut sample = 0;
-    while sample < count {
-        color += lit_by::<V, FULL>(frame, world, surface, viewer, light, sample, traced);
-        sample += 1;
+    if NEEDS & LIGHTS == 0 {
+        color = lit_by::<V, NEEDS>(frame, world, surface, viewer, light, 0, traced);
+    } else {
+        let count = light.sample_count();
+        let mut sample = 0;
+        while sample < count {
+            color += lit_by::<V, NEEDS>(frame, world, surface, viewer, light, sample, traced);
+            sample += 1;
+        }
+    }
+    if viewer.is_seen {
+        let (asked, dark) = (traced.shadow_rays - asked, traced.dark - dark);
+        traced.sees(if dark == 0 {
+            0
+        } else if dark == asked {
+            1
+        } else {
+            2
+        });
     }
     color
 }
 
 /// What one sample of a light contributes.
-fn lit_by<V: Traversal, const FULL: bool>(
+fn lit_by<V: Traversal, const NEEDS: u32>(
     frame: &Frame,
     world: &World<'_>,
     surface: &Surface,
@@ -99,7 +114,7 @@ fn lit_by<V: Traversal, const FULL: bool>(
     let material = &surface.material;
     let origin = surface.shadow_point + surface.side * surface.clearance;
     let is_lifted = surface.shadow_point != surface.point;
-    let count = if FULL { light.sample_count() } else { 1 };
+    let count = if NEEDS & LIGHTS != 0 { light.sample_count() } else { 1 };
     let incident = light.incident(sample, origin, frame.root.size());
     let direction = incident.direction.normalize();
     let cosine = surface.normal.dot(direction);
@@ -122,11 +137,12 @@ fn lit_by<V: Traversal, const FULL: bool>(
     let reflected = surface.base * (material.diffuse * cosine) + material.specular * highlight;
     let most = max_component(viewer.weight * reflected);
     if most < NEGLIGIBLE {
-        traced.cut += most / count as f32;
+        traced.cut += viewer.weight * reflected / count as f32;
         return Vec3::ZERO;
     }
     traced.shadow_rays += 1;
-    let visibility = visibility::<V, FULL>(frame, world, origin, viewer.media, &incident);
-    traced.cut += most * max_component(visibility.cut) / count as f32;
+    let visibility = visibility::<V, NEEDS>(frame, world, origin, viewer.media, &incident);
+    traced.cut += viewer.weight * reflected * visibility.cut / count as f32;
+    traced.dark += if visibility.part == Vec3::ZERO { 1 } else { 0 };
     reflected * incident.color * visibility.part
 }

@@ -10,6 +10,7 @@ use crate::scene::World;
 use crate::surface::Passage;
 use crate::trace::{any_hit, closest_hit};
 use crate::traversal::Traversal;
+use crate::variant::GLASS;
 use glam::Vec3;
 #[cfg(target_arch = "spirv")]
 use num_traits::Float;
@@ -38,7 +39,7 @@ impl Visibility {
 /// [`crate::material::Material::transmission`] at each surface, and is absorbed on its way through each medium. It is
 /// neither refracted nor reflected. As for other rays, a surface inside a medium of higher priority is passed as if it
 /// were not there (see [`Media`]).
-pub fn visibility<V: Traversal, const FULL: bool>(
+pub fn visibility<V: Traversal, const NEEDS: u32>(
     frame: &Frame,
     world: &World<'_>,
     origin: Vec3,
@@ -51,8 +52,8 @@ pub fn visibility<V: Traversal, const FULL: bool>(
         direction: incident.direction,
         t_max: incident.reach,
     };
-    if !FULL || (V::SHADOWS_APART && frame.features & TRANSPARENT == 0) {
-        return Visibility::of(if any_hit::<V, FULL>(frame, world, &ray) {
+    if NEEDS & GLASS == 0 || (V::SHADOWS_APART && frame.features & TRANSPARENT == 0) {
+        return Visibility::of(if any_hit::<V, NEEDS>(frame, world, &ray) {
             Vec3::ZERO
         } else {
             Vec3::ONE
@@ -65,7 +66,7 @@ pub fn visibility<V: Traversal, const FULL: bool>(
     let length = ray.direction.length();
     loop {
         // A miss is as far as the light.
-        let hit = closest_hit::<V, FULL>(frame, world, &ray);
+        let hit = closest_hit::<V, NEEDS>(frame, world, &ray);
         let around = media.current(materials);
         if around != 0 {
             part *= attenuation(load(materials, around - 1).absorption, hit.t * length);

@@ -14,6 +14,7 @@ use crate::scene::World;
 use crate::secondary_origin::surface_point;
 use crate::texture::NO_TEXTURE;
 use crate::triangle::{Triangle, Vertex};
+use crate::variant::{MATERIALS, PLANES, TEXTURES};
 use glam::{Vec2, Vec3};
 
 /// A surface as seen by a ray.
@@ -40,14 +41,14 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// What `ray` met at `hit`, which must not be a miss. With `FULL` false there are no planes, no textures, and only
-    /// the first material.
-    pub fn new<const FULL: bool>(frame: &Frame, world: &World<'_>, ray: &Ray, hit: &Hit) -> Self {
+    /// What `ray` met at `hit`, which must not be a miss: with the planes, textures and materials beside the first that
+    /// `NEEDS` has.
+    pub fn new<const NEEDS: u32>(frame: &Frame, world: &World<'_>, ray: &Ray, hit: &Hit) -> Self {
         let view = -ray.direction.normalize();
-        if FULL && hit.triangle & PLANE != 0 {
-            on_plane(world, ray, hit, view)
+        if NEEDS & PLANES != 0 && hit.triangle & PLANE != 0 {
+            on_plane::<NEEDS>(world, ray, hit, view)
         } else {
-            on_triangle::<FULL>(frame, world, ray, hit, view)
+            on_triangle::<NEEDS>(frame, world, ray, hit, view)
         }
     }
 
@@ -101,14 +102,14 @@ impl Passage {
     }
 }
 
-fn on_plane(world: &World<'_>, ray: &Ray, hit: &Hit, view: Vec3) -> Surface {
+fn on_plane<const NEEDS: u32>(world: &World<'_>, ray: &Ray, hit: &Hit, view: Vec3) -> Surface {
     let plane = load(world.appearance.planes, hit.triangle & !PLANE);
     let (point, clearance) = plane.surface_point(ray.at(hit.t));
     let from_front = plane.normal.dot(view) >= 0.0;
     let material = load(world.appearance.materials, plane.material);
     let at = plane.coordinates(point);
     let mut front = plane.normal;
-    if material.bump != NO_TEXTURE {
+    if NEEDS & TEXTURES != 0 && material.bump != NO_TEXTURE {
         let along = plane.normal.cross(plane.tangent);
         front = bumpy(world, &material, at, front, plane.tangent, along);
     }
@@ -121,7 +122,11 @@ fn on_plane(world: &World<'_>, ray: &Ray, hit: &Hit, view: Vec3) -> Surface {
         from_front,
         normal: bent(front * turn, side, view),
         shadow_point: point,
-        base: material.base * texture_color(world, &material, at),
+        base: if NEEDS & TEXTURES != 0 {
+            material.base * texture_color(world, &material, at)
+        } else {
+            material.base
+        },
         material_id: plane.material,
         material,
     }
@@ -138,10 +143,10 @@ fn faced(triangle: &Triangle, ray: &Ray) -> Vec3 {
     }
 }
 
-fn on_triangle<const FULL: bool>(frame: &Frame, world: &World<'_>, ray: &Ray, hit: &Hit, view: Vec3) -> Surface {
+fn on_triangle<const NEEDS: u32>(frame: &Frame, world: &World<'_>, ray: &Ray, hit: &Hit, view: Vec3) -> Surface {
     let appearance = &world.appearance;
     let triangle = Triangle::at(world.scene.triangles, hit.triangle);
-    let material_id = if FULL {
+    let material_id = if NEEDS & MATERIALS != 0 {
         load(appearance.material_ids, hit.triangle)
     } else {
         0
@@ -174,7 +179,7 @@ fn on_triangle<const FULL: bool>(frame: &Frame, world: &World<'_>, ray: &Ray, hi
                 + linear_color(corners[2].color) * hit.v;
         }
     }
-    if FULL && (material.texture != NO_TEXTURE || material.bump != NO_TEXTURE) {
+    if NEEDS & TEXTURES != 0 && (material.texture != NO_TEXTURE || material.bump != NO_TEXTURE) {
         let at_a = load(appearance.coordinates, triangle.vertex_a);
         let along_ab = load(appearance.coordinates, triangle.vertex_b) - at_a;
         let along_ac = load(appearance.coordinates, triangle.vertex_c) - at_a;

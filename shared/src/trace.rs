@@ -7,11 +7,12 @@ use crate::plane::{PLANE, Plane};
 use crate::ray::Ray;
 use crate::scene::World;
 use crate::traversal::Traversal;
+use crate::variant::PLANES;
 
-/// The nearest hit; of equal ones, a triangle comes before a plane. With `FULL` false there are no planes.
+/// The nearest hit; of equal ones, a triangle comes before a plane. Planes are looked at only if `NEEDS` has them.
 #[inline]
-pub fn closest_hit<V: Traversal, const FULL: bool>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Hit {
-    if !FULL {
+pub fn closest_hit<V: Traversal, const NEEDS: u32>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Hit {
+    if NEEDS & PLANES == 0 {
         return V::closest_hit(&world.scene, ray);
     }
     // Planes first: beyond them no triangle needs to be looked for.
@@ -45,10 +46,10 @@ pub fn nearest_plane(planes: &[Plane], count: u32, ray: &Ray) -> Hit {
     nearest
 }
 
-/// Whether there is a hit. With `FULL` false there are no planes.
+/// Whether there is a hit. Planes are looked at only if `NEEDS` has them.
 #[inline]
-pub fn any_hit<V: Traversal, const FULL: bool>(frame: &Frame, world: &World<'_>, ray: &Ray) -> bool {
-    if FULL {
+pub fn any_hit<V: Traversal, const NEEDS: u32>(frame: &Frame, world: &World<'_>, ray: &Ray) -> bool {
+    if NEEDS & PLANES != 0 {
         let mut i = 0;
         while i < frame.plane_count {
             let t = load(world.appearance.planes, i).crossing(ray);

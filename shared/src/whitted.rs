@@ -1,8 +1,10 @@
 //! The tree of a ray's reflections and refractions.
 
-use crate::arithmetic::max_component;
+use crate::arithmetic::{greater, max_component};
 use crate::buffer::{Stack, load};
+use crate::display::steps;
 use crate::frame::Frame;
+use crate::hit::Hit;
 use crate::material::FRESNEL;
 use crate::medium::Media;
 use crate::optics::{reflected, refracted};
@@ -13,14 +15,18 @@ use crate::shadow::attenuation;
 use crate::surface::Surface;
 use crate::trace::closest_hit;
 use crate::traversal::Traversal;
+use crate::variant::{GLASS, IMAGE};
 use glam::Vec3;
 
-/// A ray is followed through at most so many reflections and refractions, one after the other. Also the size of the
-/// stack: of two rays that leave a surface one waits there while the other is followed, so no more than this many wait.
+/// A ray is followed through at most so many reflections and refractions, one after the other. One more is the size of the
+/// stack: of two rays that leave a surface one waits there while the other is followed.
 pub const MAX_DEPTH: u32 = 16;
 
 /// When a sample has followed so many rays, only those that wait already are followed too; the rest is cut.
 pub const MAX_RAYS: u32 = 4096;
+
+/// What a sample saw goes into its [`Traced::seen`] down to so many reflections and refractions: into a glass and out again.
+const SEEN_DEPTH: u32 = 2;
 
 /// What became of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,9 +37,17 @@ pub struct Traced {
     pub rays: u32,
     /// Rays that asked whether a light is seen.
     pub shadow_rays: u32,
-    /// The weight of the rays, shadow rays too, that were not followed, largest channel, summed up: what is missing in the
-    /// colour is at most this part of the brightest thing there is.
-    pub cut: f32,
+    /// Of those, how many met something that lets no light through.
+    pub dark: u32,
+    /// The weight of the rays, shadow rays too, that were not followed, linear RGB, summed up: what the colour is off by is
+    /// at most this part of the brightest thing there is.
+    pub cut: Vec3,
+    /// A number made of the materials that were met and of the lights that reach them: differs where something else is seen.
+    pub seen: u32,
+    /// One by the `t` of the first hit; 0 where there is none.
+    pub nearness: f32,
+    /// Normal of the first surface; zero where there is none.
+    pub normal: Vec3,
 }
 
 impl Traced {
@@ -42,8 +56,26 @@ impl Traced {
         color: Vec3::ZERO,
         rays: 0,
         shadow_rays: 0,
-        cut: 0.0,
+        dark: 0,
+        cut: Vec3::ZERO,
+        seen: 0,
+        nearness: 0.0,
+        normal: Vec3::ZERO,
     };
+
+    /// Takes note of something that is seen.
+    #[inline]
+    pub fn sees(&mut self, what: u32) {
+        // As G. Fowler, L. C. Noll and K.-P. Vo hash bytes.
+        self.seen = (self.seen ^ what).wrapping_mul(0x0100_0193);
+    }
+
+    /// Takes note of what the camera's ray met first.
+    #[inline]
+    pub fn meets(&mut self, hit: &Hit, surface: &Surface) {
+        self.nearness = 1.0 / greater(hit.t, f32::MIN_POSITIVE);
+        self.normal = surface.normal;
+    }
 }
 
 /// A ray that is to be followed.
@@ -73,9 +105,14 @@ struct Pending {
 ///   Where all is reflected (total internal reflection), all of the transmission is, flag or not.
 /// - Front and back follow from the face normal and the ray's direction alone. A surface inside a medium of higher
 ///   priority is passed as if it were not there (see [`Media`]).
-/// - A ray whose weight is below the frame's cut-off, beyond its depth, or beyond [`MAX_RAYS`] is cut: it sees the
-///   environment as if nothing were in its way, and [`Traced::cut`] counts its weight.
-pub fn trace<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Traced {
+/// - A ray that could not be seen in the output, together with all that was cut before (R. A. Hall, D. P. Greenberg, "A
+///   testbed for realistic image synthesis", IEEE CG&A 3(8), 1983; here by [`steps`], not by the weight alone), or is beyond
+///   the frame's depth or [`MAX_RAYS`], is cut: it sees the environment as if nothing were in its way, and [`Traced::cut`]
+///   counts its weight. Of two rays that leave a surface the one of more weight is followed first: the brighter a pixel is
+///   already, the less the other may show.
+///
+/// Without [`GLASS`] among the needs no ray is transmitted, and none waits.
+pub fn trace<V: Traversal, const NEEDS: u32>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Traced {
     let mut traced = Traced::NOTHING;
     let mut next = Pending {
         origin: ray.origin,
@@ -84,47 +121,66 @@ pub fn trace<V: Traversal>(frame: &Frame, world: &World<'_>, ray: &Ray) -> Trace
         weight: Vec3::ONE,
         media: Media::of_eye(frame.media),
     };
-    let mut stack: Stack<Pending, { MAX_DEPTH as usize }> = Stack::new(next);
+    let mut stack: Stack<Pending, { MAX_DEPTH as usize + 1 }> = Stack::new(next);
     loop {
         traced.rays += 1;
-        let children = follow::<V>(frame, world, &next, &mut traced);
-        let mut is_found = false;
-        let mut i = 0;
-        // One body for both: the environment would be in the kernel twice.
-        while i < 2 {
-            let child = if i == 0 {
-                children.reflected
-            } else {
-                children.transmitted
-            };
-            i += 1;
-            let weight = max_component(child.weight);
-            if weight > frame.cutoff && child.depth <= frame.depth && child.depth <= MAX_DEPTH && traced.rays < MAX_RAYS
-            {
-                if is_found {
-                    // Of rays at the same depth one waits at most, so there is room.
-                    stack.push(child);
-                } else {
-                    next = child;
-                    is_found = true;
-                }
-            } else if weight > 0.0 {
-                let appearance = &world.appearance;
-                traced.color += child.weight
-                    * frame
-                        .environment
-                        .radiance(appearance.textures, appearance.texels, child.direction);
-                if child.depth != OUTSIDE {
-                    traced.cut += weight;
-                }
+        let children = follow::<V, NEEDS>(frame, world, &next, &mut traced);
+        next = children.reflected;
+        if NEEDS & GLASS != 0 {
+            let mut other = children.transmitted;
+            if max_component(other.weight) > max_component(next.weight) {
+                next = children.transmitted;
+                other = children.reflected;
+            }
+            if other.weight != Vec3::ZERO {
+                // Of rays at the same depth one waits at most, so there is room.
+                stack.push(other);
             }
         }
-        if !is_found {
-            if stack.waiting == 0 {
+        while !goes_on(frame, &next, &traced) {
+            leave::<NEEDS>(frame, world, &next, &mut traced);
+            if NEEDS & GLASS == 0 || stack.waiting == 0 {
                 return traced;
             }
             next = stack.pop();
         }
+    }
+}
+
+/// Whether a ray is followed.
+#[inline]
+fn goes_on(frame: &Frame, ray: &Pending, traced: &Traced) -> bool {
+    let is_wanted = (ray.weight != Vec3::ZERO) & (ray.depth <= frame.depth) & (ray.depth <= MAX_DEPTH);
+    if !(is_wanted & (traced.rays < MAX_RAYS)) {
+        return false;
+    }
+    if frame.cutoff == 0.0 {
+        return true;
+    }
+    !(steps(frame, traced.color, ray.weight * frame.brightest) <= frame.cutoff)
+}
+
+/// What a ray that is not followed contributes, or that has left the scene.
+fn leave<const NEEDS: u32>(frame: &Frame, world: &World<'_>, ray: &Pending, traced: &mut Traced) {
+    if ray.weight == Vec3::ZERO {
+        return;
+    }
+    traced.color += ray.weight * surroundings::<NEEDS>(frame, world, ray.direction);
+    if ray.depth != OUTSIDE {
+        traced.cut += ray.weight;
+    }
+}
+
+/// What is seen in a direction where nothing is in the way.
+#[inline]
+pub fn surroundings<const NEEDS: u32>(frame: &Frame, world: &World<'_>, direction: Vec3) -> Vec3 {
+    if NEEDS & IMAGE != 0 {
+        let appearance = &world.appearance;
+        frame
+            .environment
+            .radiance(appearance.textures, appearance.texels, direction)
+    } else {
+        frame.environment.gradient(direction)
     }
 }
 
@@ -137,7 +193,12 @@ struct Children {
 /// [`Pending::depth`] of a ray that has left the scene: nobody follows it.
 const OUTSIDE: u32 = u32::MAX;
 
-fn follow<V: Traversal>(frame: &Frame, world: &World<'_>, from: &Pending, traced: &mut Traced) -> Children {
+fn follow<V: Traversal, const NEEDS: u32>(
+    frame: &Frame,
+    world: &World<'_>,
+    from: &Pending,
+    traced: &mut Traced,
+) -> Children {
     let appearance = &world.appearance;
     let nothing = Pending {
         weight: Vec3::ZERO,
@@ -148,10 +209,14 @@ fn follow<V: Traversal>(frame: &Frame, world: &World<'_>, from: &Pending, traced
         transmitted: nothing,
     };
     let ray = Ray::new(from.origin, from.direction);
-    let hit = closest_hit::<V, true>(frame, world, &ray);
-    let around = from.media.current(appearance.materials);
+    let hit = closest_hit::<V, NEEDS>(frame, world, &ray);
+    let around = if NEEDS & GLASS != 0 {
+        from.media.current(appearance.materials)
+    } else {
+        0
+    };
     let mut weight = from.weight;
-    if around != 0 {
+    if NEEDS & GLASS != 0 && around != 0 {
         let absorption = load(appearance.materials, around - 1).absorption;
         // Of a ray that never leaves what absorbs, nothing is left: a miss has the largest `t`.
         weight *= attenuation(absorption, hit.t * ray.direction.length());
@@ -164,16 +229,23 @@ fn follow<V: Traversal>(frame: &Frame, world: &World<'_>, from: &Pending, traced
         };
         return children;
     }
-    let surface = Surface::new::<true>(frame, world, &ray, &hit);
+    let surface = Surface::new::<NEEDS>(frame, world, &ray, &hit);
     let material = &surface.material;
+    let is_seen = from.depth <= SEEN_DEPTH;
+    if is_seen {
+        traced.sees(surface.material_id + 1);
+    }
+    if from.depth == 0 {
+        traced.meets(&hit, &surface);
+    }
     let mut beyond = from.media;
-    let mut from_index = if around == 0 {
+    let mut from_index = if NEEDS & GLASS == 0 || around == 0 {
         1.0
     } else {
         load(appearance.materials, around - 1).ior
     };
     let mut to_index = from_index;
-    if material.is_transmissive() {
+    if NEEDS & GLASS != 0 && material.is_transmissive() {
         beyond = if surface.from_front {
             from.media.entered(surface.material_id)
         } else {
@@ -206,14 +278,15 @@ fn follow<V: Traversal>(frame: &Frame, world: &World<'_>, from: &Pending, traced
         direction: view,
         weight,
         media: from.media,
+        is_seen,
     };
-    let shaded = shade::<V, true>(frame, world, &surface, &viewer, traced);
+    let shaded = shade::<V, NEEDS>(frame, world, &surface, &viewer, traced);
     traced.color += weight * shaded;
 
     let mut mirror = material.mirror;
     let mut transmission = material.transmission;
     let has_fresnel = material.flags & FRESNEL != 0;
-    if material.is_transmissive() {
+    if NEEDS & GLASS != 0 && material.is_transmissive() {
         let refraction = refracted(-view, surface.normal, from_index, to_index);
         let reflectance = if refraction.total {
             1.0

@@ -21,6 +21,7 @@ use oktant_shared::plane::Plane;
 use oktant_shared::ray::Ray;
 use oktant_shared::texture::{NO_TEXTURE, SRGB_IMAGE, Texture};
 use oktant_shared::traversal::Standard;
+use oktant_shared::variant::EVERYTHING;
 use oktant_shared::whitted::{MAX_DEPTH, Traced, trace};
 use std::ops::Range;
 use std::sync::Arc;
@@ -192,6 +193,8 @@ pub fn frame(scene: &Scene, camera: Camera) -> Frame {
         plane_count: scene.plane_count,
         depth: MAX_DEPTH,
         cutoff: 0.0,
+        brightest: scene.brightest(&scene.light),
+        exposure: 1.0,
         media: media_at(scene, camera.eye).to_eye(),
         ..Frame::zeroed()
     }
@@ -218,7 +221,7 @@ pub fn camera(eye: Vec3, target: Vec3, field_of_view: f32, width: u32, height: u
 
 /// What a ray sees.
 pub fn see(scene: &Scene, frame: &Frame, ray: &Ray) -> Traced {
-    trace::<Standard>(frame, &scene.world(), ray)
+    trace::<Standard, EVERYTHING>(frame, &scene.world(), ray)
 }
 
 /// The direction in which a ray leaves a scene that does nothing but bend it.

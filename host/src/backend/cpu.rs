@@ -1,17 +1,22 @@
 //! The CPU back end: the kernel's body, compiled natively.
 
 use super::{Backend, BackendError, Query};
+use crate::adaptive;
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use glam::{UVec2, uvec2};
+use oktant_shared::adaptive::{Choice, Known, Mark, SINGLE, UNKNOWN, choose, entry, of_entry, samples_at};
 use oktant_shared::frame::Frame;
 use oktant_shared::general::General;
 use oktant_shared::hit::Hit;
 use oktant_shared::parts::{BoxKind, Parts, TraversalKind, TriangleKind};
 use oktant_shared::ray::Ray;
-use oktant_shared::render::{hit_pixel, render_pixel};
+use oktant_shared::render::{Pixel, hit_pixel, render_pixel};
+use oktant_shared::sampling::Batch;
+use oktant_shared::scene::World;
 use oktant_shared::traversal::{Standard, Traversal};
+use oktant_shared::variant::{EVERYTHING, MIRRORED, OPAQUE, PLAIN, Variant};
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -26,6 +31,8 @@ pub struct Cpu {
 const TILE: u32 = 16;
 /// Rays that threads take at a time.
 const RAYS: usize = 256;
+/// Pixels of a list that are rendered before they are stored.
+const PART: usize = 1 << 16;
 
 impl Cpu {
     /// A back end for a scene.
@@ -70,8 +77,9 @@ impl Cpu {
         oktant_shared::offered_parts!(cast_with)
     }
 
-    /// Adds one pass of samples to a picture of the frame's size; the first pass overwrites. Returns false, with the
-    /// picture part done, if `cancel` was raised meanwhile.
+    /// Adds one pass of samples to a picture of the frame's size; the first pass overwrites. A pass of
+    /// [`crate::adaptive::passes`] takes all samples of the pixels that it lists. Returns false, with the picture part done,
+    /// if `cancel` was raised meanwhile.
     pub fn render_pass(
         &self,
         frame: &Frame,
@@ -79,21 +87,21 @@ impl Cpu {
         cancel: &AtomicBool,
         progress: Progress<'_>,
     ) -> bool {
+        if frame.most_samples != 0 {
+            return self.render_adaptive(frame, picture, cancel, progress);
+        }
         let world = self.scene.world();
         let size = frame.size();
-        let body = match (self.scene.parts == Parts::default(), self.scene.is_plain()) {
-            (true, true) => render_pixel::<Standard, false>,
-            (true, false) => render_pixel::<Standard, true>,
-            (false, _) => render_pixel::<General, true>,
-        };
-        let overwrite = frame.first_sample == 0;
+        let body = self.body();
+        let batch = Batch::of_frame(frame);
+        let overwrite = batch.first == 0;
         let rows = size.y.div_ceil(TILE);
         let done = AtomicU32::new(0);
         for_each_tile(
             (&mut picture.sums, &mut picture.work),
             size.x,
             |pixel, sum, work| {
-                let pixel = body(frame, &world, pixel);
+                let pixel = body(frame, &world, pixel, &batch);
                 if overwrite {
                     (*sum, *work) = (pixel.sum, pixel.work);
                 } else {
@@ -109,6 +117,84 @@ impl Cpu {
         );
         !cancel.load(Ordering::Relaxed)
     }
+
+    /// A pass over the pixels that a round of adaptive sampling lists, or over all.
+    fn render_adaptive(
+        &self,
+        frame: &Frame,
+        picture: &mut Picture,
+        cancel: &AtomicBool,
+        progress: Progress<'_>,
+    ) -> bool {
+        let size = frame.size();
+        let pixels = size.x * size.y;
+        if picture.marks.is_empty() {
+            picture.marks = vec![Mark::default(); pixels as usize];
+        }
+        let list: Vec<u32> = if frame.is_listed == 0 {
+            (0..pixels).map(|index| entry(index, SINGLE)).collect()
+        } else {
+            chosen(frame, picture)
+        };
+        let (world, body) = (self.scene.world(), self.body());
+        for (before, part) in (0..).step_by(PART).zip(list.chunks(PART)) {
+            let rendered: Vec<Pixel> = part
+                .par_iter()
+                .map(|entry| {
+                    let (index, level) = of_entry(*entry);
+                    let pixel = uvec2(index % size.x, index / size.x);
+                    body(frame, &world, pixel, &samples_at(level))
+                })
+                .collect();
+            for (entry, pixel) in part.iter().zip(rendered) {
+                let (index, level) = of_entry(*entry);
+                let index = index as usize;
+                picture.sums[index] = pixel.sum;
+                picture.work[index] += pixel.work;
+                picture.marks[index] = pixel.mark.after(picture.marks[index], &samples_at(level));
+            }
+            progress("rendering", (before + part.len()) as f32 / list.len() as f32);
+            if cancel.load(Ordering::Relaxed) {
+                return false;
+            }
+        }
+        !cancel.load(Ordering::Relaxed)
+    }
+
+    /// The kernel's body for the scene.
+    fn body(&self) -> fn(&Frame, &World<'_>, UVec2, &Batch) -> Pixel {
+        if self.scene.parts != Parts::default() {
+            return render_pixel::<General, EVERYTHING>;
+        }
+        match self.scene.variant {
+            Variant::Plain => render_pixel::<Standard, PLAIN>,
+            Variant::Opaque => render_pixel::<Standard, OPAQUE>,
+            Variant::Mirrors => render_pixel::<Standard, MIRRORED>,
+            Variant::Everything => render_pixel::<Standard, EVERYTHING>,
+        }
+    }
+}
+
+/// The pixels that a round of adaptive sampling wants traced; those that it interpolates are written.
+fn chosen(frame: &Frame, picture: &mut Picture) -> Vec<u32> {
+    let size = frame.size();
+    let known = Known {
+        marks: &picture.marks,
+        sums: &picture.sums,
+    };
+    let choices: Vec<(u32, Choice)> = (0..size.x * size.y)
+        .into_par_iter()
+        .map(|index| (index, choose(frame, &known, uvec2(index % size.x, index / size.x))))
+        .filter(|(_, choice)| *choice != Choice::NOTHING)
+        .collect();
+    for (index, choice) in &choices {
+        if choice.is_interpolated {
+            picture.sums[*index as usize] = choice.sum;
+            picture.marks[*index as usize] = choice.mark;
+        }
+    }
+    let listed = choices.iter().filter(|(_, choice)| choice.level != UNKNOWN);
+    listed.map(|(index, choice)| entry(*index, choice.level)).collect()
 }
 
 impl Backend for Cpu {
@@ -119,7 +205,15 @@ impl Backend for Cpu {
     fn render(&mut self, frame: &Frame, progress: Progress<'_>) -> Result<Picture, BackendError> {
         let size = frame.size();
         let mut picture = Picture::unwritten(size.x, size.y);
-        self.render_pass(frame, &mut picture, &AtomicBool::new(false), progress);
+        let passes = if frame.most_samples != 0 {
+            adaptive::passes(frame, frame.most_samples)
+        } else {
+            vec![*frame]
+        };
+        for (before, pass) in passes.iter().enumerate() {
+            let of_all = |stage, fraction| progress(stage, (before as f32 + fraction) / passes.len() as f32);
+            self.render_pass(pass, &mut picture, &AtomicBool::new(false), &of_all);
+        }
         Ok(picture)
     }
 

@@ -18,10 +18,12 @@ pub use probe::FusedMultiplyAdd;
 pub use resources::{GpuPicture, GpuScene};
 
 use super::{Backend, BackendError, Query};
+use crate::adaptive;
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use glam::{Vec4, uvec2};
+use layouts::CHOOSE;
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
 use oktant_shared::parts::Parts;
@@ -29,7 +31,6 @@ use oktant_shared::ray::Ray;
 use oktant_shared::render::sample_ray;
 use oktant_shared::trace::nearest_plane;
 use readback::Timer;
-use resources::PLAIN;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -74,13 +75,19 @@ impl GpuBackend {
     /// [`BackendError::Failed`], also where the device has no clock.
     pub fn time_render(&self, frame: &Frame, repeats: u32) -> Result<Vec<f64>, BackendError> {
         let size = frame.size();
-        let picture = self.gpu.picture(size.x, size.y)?;
+        let picture = self.gpu.picture(size.x, size.y, frame.most_samples != 0)?;
         self.gpu.pipeline(self.scene.entry)?;
         let timer = self.timer()?;
+        let passes = if frame.most_samples == 0 {
+            vec![*frame]
+        } else {
+            adaptive::passes(frame, frame.most_samples)
+        };
         timed(repeats, || {
+            self.gpu.forget(&picture);
             let mut encoder = self.gpu.encoder();
             self.gpu
-                .encode_render(&mut encoder, &self.scene, &picture, frame, size.y, Some(&timer))?;
+                .encode_passes(&mut encoder, &self.scene, &picture, &passes, size.y, Some(&timer))?;
             timer.finish(&self.gpu, encoder)
         })
     }
@@ -114,6 +121,60 @@ impl GpuBackend {
         let hits = self.cast(self.scene.parts, Query::Closest, &rays)?;
         let nearer = |(hit, plane): (Hit, Hit)| if hit.is_hit() { hit } else { plane };
         Ok(hits.into_iter().zip(planes).map(nearer).collect())
+    }
+
+    /// Camera rays that one dispatch may have, and how many samples of a pixel may be among them.
+    fn budget(&self, frame: &Frame, most: u32) -> (u64, u32) {
+        let size = frame.size();
+        let budget = if self.scene.is_plain {
+            RAYS_PER_DISPATCH
+        } else {
+            TREES_PER_DISPATCH
+        };
+        // lavapipe leaves all loops of a pixel when they have taken 65,535 turns together: a sample at a time.
+        let most = if self.gpu.is_software() { 1 } else { most };
+        let pixels = u64::from(size.x) * u64::from(size.y);
+        (budget, (budget / pixels.max(1)).clamp(1, u64::from(most)) as u32)
+    }
+
+    /// The passes of a frame, each with the rows of its band.
+    fn bands(&self, frame: &Frame) -> Vec<(Frame, u32)> {
+        let (width, height) = frame.size().into();
+        let (budget, samples) = self.budget(frame, frame.sample_count);
+        // Whole workgroups: a row of the next band must not be added twice.
+        let rows = (budget / u64::from(width.max(1) * samples)) as u32 / TILE * TILE;
+        let rows = rows.clamp(TILE, height.next_multiple_of(TILE));
+        let mut bands = Vec::new();
+        for first_sample in (0..frame.sample_count).step_by(samples as usize) {
+            for first_row in (0..height).step_by(rows as usize) {
+                let pass = Frame {
+                    first_sample: frame.first_sample + first_sample,
+                    sample_count: samples.min(frame.sample_count - first_sample),
+                    first_row,
+                    ..*frame
+                };
+                bands.push((pass, rows.min(height - first_row)));
+            }
+        }
+        bands
+    }
+
+    /// The passes of a frame that is sampled adaptively.
+    fn adaptive_passes(&self, frame: &Frame) -> Vec<(Frame, u32)> {
+        let (budget, samples) = self.budget(frame, frame.most_samples);
+        let mut passes = Vec::new();
+        for pass in adaptive::passes(frame, samples) {
+            if pass.is_listed == 0 {
+                passes.extend(self.bands(&pass));
+            } else {
+                let pixels = (budget / u64::from(pass.sample_count)).min(u64::from(u32::MAX)) as u32;
+                passes.extend(adaptive::parts(&pass, pixels).into_iter().map(|part| {
+                    let rows = pixels.div_ceil(part.size().x.max(1)).min(part.size().y);
+                    (part, rows)
+                }));
+            }
+        }
+        passes
     }
 
     fn timer(&self) -> Result<Timer, BackendError> {
@@ -198,42 +259,31 @@ impl Backend for GpuBackend {
     fn render(&mut self, frame: &Frame, progress: Progress<'_>) -> Result<Picture, BackendError> {
         let (width, height) = frame.size().into();
         let pixels = u64::from(width) * u64::from(height);
-        let picture = self.gpu.picture_and_work(width, height, pixels)?;
-        let budget = if self.scene.entry == PLAIN {
-            RAYS_PER_DISPATCH
+        let is_adaptive = frame.most_samples != 0;
+        let picture = self.gpu.picture_and_work(width, height, pixels, is_adaptive)?;
+        let passes = if is_adaptive {
+            self.adaptive_passes(frame)
         } else {
-            TREES_PER_DISPATCH
+            self.bands(frame)
         };
-        // lavapipe leaves all loops of a pixel when they have taken 65,535 turns together: a sample at a time.
-        let most = if self.gpu.is_software() { 1 } else { frame.sample_count };
-        let samples = (budget / pixels.max(1)).clamp(1, u64::from(most)) as u32;
-        // Whole workgroups: a row of the next band must not be added twice.
-        let rows = (budget / u64::from(width.max(1) * samples)) as u32 / TILE * TILE;
-        let rows = rows.clamp(TILE, height.next_multiple_of(TILE));
-        for first_sample in (0..frame.sample_count).step_by(samples as usize) {
-            for first_row in (0..height).step_by(rows as usize) {
-                let pass = Frame {
-                    first_sample: frame.first_sample + first_sample,
-                    sample_count: samples.min(frame.sample_count - first_sample),
-                    first_row,
-                    ..*frame
-                };
-                let mut encoder = self.gpu.encoder();
-                let band = rows.min(height - first_row);
-                self.gpu
-                    .encode_render(&mut encoder, &self.scene, &picture, &pass, band, None)?;
-                self.gpu.queue.submit([encoder.finish()]);
-                self.gpu.wait()?;
-                let done =
-                    f64::from(first_sample) + f64::from(pass.sample_count * (first_row + band)) / f64::from(height);
-                progress("rendering", (done / f64::from(frame.sample_count)) as f32);
-            }
+        for (done, (pass, rows)) in (1..).zip(&passes) {
+            let mut encoder = self.gpu.encoder();
+            self.gpu
+                .encode_passes(&mut encoder, &self.scene, &picture, &[*pass], *rows, None)?;
+            self.gpu.queue.submit([encoder.finish()]);
+            self.gpu.wait()?;
+            progress("rendering", done as f32 / passes.len() as f32);
         }
         Ok(Picture {
             width,
             height,
             sums: self.gpu.read(&picture.sums)?,
             work: self.gpu.read(&picture.work)?,
+            marks: if is_adaptive {
+                self.gpu.read(&picture.marks)?
+            } else {
+                Vec::new()
+            },
         })
     }
 
@@ -288,42 +338,72 @@ impl Gpu {
     ) -> Result<f64, BackendError> {
         let mut encoder = self.encoder();
         let timer = if self.is_software() { None } else { Timer::new(self) };
+        let (pass, rows) = ([*frame], picture.height);
         if let Some(timer) = timer {
-            self.encode_render(&mut encoder, scene, picture, frame, picture.height, Some(&timer))?;
+            self.encode_passes(&mut encoder, scene, picture, &pass, rows, Some(&timer))?;
             timer.finish(self, encoder)
         } else {
-            // Not to be counted, should it be made only now.
+            // Not to be counted, should they be made only now.
             self.pipeline(scene.entry)?;
+            if adaptive::makes_list(frame) {
+                self.pipeline(CHOOSE)?;
+            }
             let start = Instant::now();
-            self.encode_render(&mut encoder, scene, picture, frame, picture.height, None)?;
+            self.encode_passes(&mut encoder, scene, picture, &pass, rows, None)?;
             self.queue.submit([encoder.finish()]);
             self.wait()?;
             Ok(start.elapsed().as_secs_f64() * 1e3)
         }
     }
 
-    fn encode_render(
+    /// Passes one after the other, each over so many rows of the picture, or over as many pixels of its list.
+    fn encode_passes(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         scene: &GpuScene,
         picture: &GpuPicture,
-        frame: &Frame,
+        passes: &[Frame],
         rows: u32,
         timer: Option<&Timer>,
     ) -> Result<(), BackendError> {
-        debug_assert_eq!(frame.size(), uvec2(picture.width, picture.height));
         let pipeline = self.pipeline(scene.entry)?;
-        let frame_group = self.frame_group(frame);
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some("render"),
-            timestamp_writes: timer.map(Timer::writes),
-        });
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &scene.group, &[]);
-        pass.set_bind_group(1, &frame_group, &[]);
-        pass.set_bind_group(2, &picture.group, &[]);
-        pass.set_bind_group(3, &scene.appearance, &[]);
-        pass.dispatch_workgroups(picture.width.div_ceil(TILE), rows.div_ceil(TILE), 1);
+        for (number, frame) in passes.iter().enumerate() {
+            debug_assert_eq!(frame.size(), uvec2(picture.width, picture.height));
+            debug_assert!(frame.most_samples == 0 || picture.is_adaptive());
+            let frame_group = self.frame_group(frame);
+            let (columns, lines) = (picture.width.div_ceil(TILE), rows.div_ceil(TILE));
+            let is_first = number == 0;
+            let makes_list = adaptive::makes_list(frame);
+            if makes_list {
+                encoder.clear_buffer(&picture.count, 0, None);
+                let choose = self.pipeline(CHOOSE)?;
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                    label: Some("choose"),
+                    timestamp_writes: timer.and_then(|timer| timer.writes_of(is_first, false)),
+                });
+                pass.set_pipeline(&choose);
+                pass.set_bind_group(1, &frame_group, &[]);
+                pass.set_bind_group(2, &picture.choice, &[]);
+                pass.dispatch_workgroups(columns, picture.height.div_ceil(TILE), 1);
+            }
+            let is_last = number + 1 == passes.len();
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("render"),
+                timestamp_writes: timer.and_then(|timer| timer.writes_of(is_first && !makes_list, is_last)),
+            });
+            pass.set_pipeline(&pipeline);
+            pass.set_bind_group(0, &scene.group, &[]);
+            pass.set_bind_group(1, &frame_group, &[]);
+            pass.set_bind_group(2, &picture.group, &[]);
+            pass.set_bind_group(3, &scene.appearance, &[]);
+            if frame.is_listed == 0 {
+                pass.dispatch_workgroups(columns, lines, 1);
+            } else {
+                // Most find nothing to do, which takes less than asking first how many are needed.
+                let workgroups = (picture.width * rows).div_ceil(TILE * TILE);
+                pass.dispatch_workgroups(workgroups.min(LINES_PER_ROW), workgroups.div_ceil(LINES_PER_ROW), 1);
+            }
+        }
         Ok(())
     }
 

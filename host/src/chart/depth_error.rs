@@ -11,14 +11,14 @@ use crate::progress::Progress;
 use crate::view::View;
 use oktant_shared::whitted::MAX_DEPTH;
 
-/// The least cut-off that is charted is 2 to the power of minus this.
-const LEAST_CUTOFF: i32 = 16;
+/// The cut-offs that are charted are the default times these powers of two.
+const POWERS: std::ops::RangeInclusive<i32> = -10..=5;
 /// That of the picture that is right: without any, a sample in glass would spend its 4,096 rays on what nobody sees, before
 /// it comes to what matters.
-const NO_CUTOFF: f32 = 1.0 / (1 << 20) as f32;
+const NO_CUTOFF: f32 = 1.0 / (1 << 10) as f32;
 
 const DEPTH: &str = "reflections and refractions, one after the other";
-const CUTOFF: &str = "cut-off, part of the light";
+const CUTOFF: &str = "cut-off, steps of 8 bits";
 
 /// The quantities of a panel's y axis.
 const QUANTITIES: [&str; 3] = ["RMSE of the light", "mean of FLIP", "milliseconds"];
@@ -36,7 +36,7 @@ pub fn depth_error(plan: &Plan, progress: Progress<'_>) -> Result<Figure, Measur
         "What is missing where rays are cut",
         &format!(
             "Pictures of {width} x {height} pixels in the samples that each scene asks for, against the same in double precision at \
-             a depth of {MAX_DEPTH} and a cut-off of 2^-20. Above: by depth, at that cut-off. Below: by cut-off, at that depth. \
+             a depth of {MAX_DEPTH} with all rays of a weight of 2^-16 and more. Above: by depth, at that cut-off. Below: by cut-off, at that depth. \
              Ringed: the defaults. Where a line is level, what is left is the error of single precision."
         ),
     );
@@ -67,8 +67,8 @@ pub fn depth_error(plan: &Plan, progress: Progress<'_>) -> Result<Figure, Measur
                 depth == default.depth,
             )
         });
-        let cutoffs = (1..=LEAST_CUTOFF).map(|power| {
-            let cutoff = 0.5_f32.powi(power);
+        let cutoffs = POWERS.map(|power| {
+            let cutoff = default.cutoff * 2.0_f32.powi(power);
             (
                 View { cutoff, ..whole },
                 "cut-off",

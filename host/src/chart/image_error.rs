@@ -20,7 +20,8 @@ const PATTERNS: [(Pattern, &str); 3] = [
     (Pattern::R2, "R2 sequence"),
 ];
 
-/// The error of pictures in 1, 4, 16 and 64 samples of each pattern against milliseconds, scene by scene: one figure of the
+/// The error of pictures in 1, 4, 16 and 64 samples of each pattern, the same for all pixels and as many as each needs,
+/// against milliseconds, scene by scene: one figure of the
 /// root mean square error of the light, one of the mean of FLIP. What is right is a picture of 1,024 samples in f64, with the
 /// scene's own filter, depth and cut-off. `progress` hears of the stages "rendering" and "measuring".
 ///
@@ -29,8 +30,8 @@ const PATTERNS: [(Pattern, &str); 3] = [
 pub fn image_error(plan: &Plan, progress: Progress<'_>) -> Result<[Figure; 2], MeasureError> {
     let [width, height] = plan.pictures.to_array();
     let explanation = format!(
-        "Pictures of {width} x {height} pixels in 1, 4, 16 and 64 samples of a pixel, against one of {} in double precision. \
-         Lower left is better; the numbers are those of the samples.",
+        "Pictures of {width} x {height} pixels in 1, 4, 16 and 64 samples of a pixel, or up to as many where pixels get what they \
+         need (adaptive), against one of {} in double precision. Lower left is better; the numbers are those of the samples.",
         REFERENCE_SIDE * REFERENCE_SIDE,
     );
     let mut rmse = plan.figure(
@@ -57,25 +58,35 @@ pub fn image_error(plan: &Plan, progress: Progress<'_>) -> Result<[Figure; 2], M
         let wanted = sitter.wanted(&sitter.view, Takes::Grid(REFERENCE_SIDE), progress)?;
         for device in &plan.devices {
             let mut tracer = device.with(&sitter.scene)?;
-            for (done, (pattern, name)) in PATTERNS.into_iter().enumerate() {
-                progress("measuring", done as f32 / PATTERNS.len() as f32);
-                for samples in Samples::ALL {
+            let ways = PATTERNS.into_iter().flat_map(|way| [(way, false), (way, true)]);
+            for (done, ((pattern, name), adaptive)) in ways.enumerate() {
+                progress("measuring", done as f32 / (2 * PATTERNS.len()) as f32);
+                let name = if adaptive {
+                    format!("{name}, adaptive")
+                } else {
+                    name.into()
+                };
+                // One sample leaves nothing to be adapted.
+                for samples in Samples::ALL.into_iter().skip(usize::from(adaptive)) {
                     let view = View {
                         pattern,
                         samples,
+                        adaptive,
+                        block: 1,
                         ..sitter.view
                     };
                     let (comparison, milliseconds) = sitter.taken(&mut tracer, &view, &wanted, plan.repeats)?;
                     let record = |error: f64| Record {
                         panel: sitter.name.clone(),
                         series: match plan.devices.len() {
-                            1 => name.into(),
+                            1 => name.clone(),
                             _ => format!("{name}, {}", short_name(device)),
                         },
                         label: samples.count().to_string(),
                         x: milliseconds,
                         y: Value::Number(error),
-                        is_marked: (pattern, samples) == (View::default().pattern, View::default().samples),
+                        is_marked: !adaptive
+                            && (pattern, samples) == (View::default().pattern, View::default().samples),
                     };
                     rmse.records.push(record(comparison.rmse));
                     flip.records.push(record(comparison.flip.mean));

@@ -20,6 +20,7 @@ pub use values::{Aovs, Grid, Octree, Size};
 
 use super::Failure;
 use super::engine::EngineOptions;
+use clap::builder::PossibleValue;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use oktant::backend::BackendChoice;
 use oktant::backend::gpu::{GpuOptions, Kernel, ModulePath};
@@ -28,6 +29,7 @@ use oktant::output::Bits;
 use oktant::structure::StructureOptions;
 use oktant::tree::BuildPreset;
 use oktant_shared::parts::{BoxKind, Parts, TraversalKind, TriangleKind};
+use oktant_shared::variant::Variant;
 use refusal::refusal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -114,6 +116,10 @@ pub struct RenderArguments {
     /// Render so many times and print the times of the kernel: median, least and greatest.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub repeat: u32,
+    /// Variant of the kernel: the least that does all that the scene needs, or a greater one, for comparison
+    /// [default: the least].
+    #[arg(long, value_enum)]
+    pub variant: Option<VariantArgument>,
     /// Render in double precision, slowly, for others to be compared with; with a number, in so many samples of a pixel, a
     /// regular grid of 1, 4, 9, ... or 4096; docs/reference.md says more.
     #[arg(
@@ -123,9 +129,28 @@ pub struct RenderArguments {
         require_equals = true,
         default_missing_value = "",
         value_parser = takes,
-        conflicts_with_all = ["backend", "spirv", "kernel", "repeat", "traversal", "triangle", "box_test", "build", "octree", "grid"],
+        conflicts_with_all = ["backend", "spirv", "kernel", "repeat", "variant", "error", "block", "traversal", "triangle", "box_test", "build", "octree", "grid"],
     )]
     pub reference: Option<Takes>,
+}
+
+/// A variant of the kernel.
+#[derive(Clone, Copy, Debug)]
+pub struct VariantArgument(pub Variant);
+
+impl ValueEnum for VariantArgument {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[
+            VariantArgument(Variant::Plain),
+            VariantArgument(Variant::Opaque),
+            VariantArgument(Variant::Mirrors),
+            VariantArgument(Variant::Everything),
+        ]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.0.name()))
+    }
 }
 
 #[derive(Debug, Args)]

@@ -5,6 +5,7 @@ use super::arguments::InfoArguments;
 use glam::DVec3;
 use oktant::backend::gpu::{Gpu, GpuOptions, compiled_kernel};
 use oktant::structure::Figures;
+use oktant_shared::variant::NEEDS;
 use std::fmt::Write;
 
 pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
@@ -72,6 +73,11 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
             size_of_val(scene.vertices.as_slice()) as f64 / triangles,
         ),
     );
+    line("needs", needs(scene.needs));
+    line(
+        "variant",
+        format!("{}, of plain, opaque, mirrors and everything", scene.variant),
+    );
     line(
         "time",
         format!(
@@ -121,6 +127,21 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         line("arithmetic", format!("{}: {}", gpu.name, gpu.fused_multiply_add()));
     }
     super::print(&text)
+}
+
+/// What the scene has that not every variant of the kernel can.
+fn needs(needs: u32) -> String {
+    let names: Vec<_> = NEEDS
+        .iter()
+        .enumerate()
+        .filter(|(bit, _)| needs >> bit & 1 != 0)
+        .map(|(_, name)| *name)
+        .collect();
+    if names.is_empty() {
+        "one plain material, one light".into()
+    } else {
+        names.join(", ")
+    }
 }
 
 /// Leaves by number of references.

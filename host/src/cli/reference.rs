@@ -25,6 +25,11 @@ pub fn run(arguments: &RenderArguments, takes: Takes) -> Result<(), Failure> {
     }
     let source = mesh.source();
     look.check(&source)?;
+    if look.samples.is_some_and(|count| count.adaptive) {
+        return Err(Failure::usage(
+            "A reference takes as many samples everywhere: give --samples a number alone.",
+        ));
+    }
     let format = format(files, look)?;
     let aovs = files.aov.0.as_slice();
     let create = |is_pair| RenderingFiles::create(&files.output, format, aovs, is_pair);
@@ -34,6 +39,7 @@ pub fn run(arguments: &RenderArguments, takes: Takes) -> Result<(), Failure> {
     let size = arguments.size.or(setting.size.map(Size::from)).unwrap_or_default();
     let view = look.applied(setting.view);
     look.check_eyes(view.stereo.is_some())?;
+    look.check_sampling(false)?;
     output = for_view(output, &view, create)?;
     check_halves(&view, size)?;
     let reference = Reference::new(Arc::new(setting.model)).map_err(|error| refused(source, error))?;
@@ -45,7 +51,7 @@ pub fn run(arguments: &RenderArguments, takes: Takes) -> Result<(), Failure> {
     };
     drop(bar);
     let seconds = start.elapsed().as_secs_f64();
-    let effort = Effort::new(&picture);
+    let effort = Effort::new(&picture, None);
     let seen = if aovs.is_empty() {
         Seen::default()
     } else {

@@ -35,6 +35,7 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
                 &arguments.look,
                 &arguments.engine,
                 1,
+                None,
             )
         }
         Err(error) => Err(error.into()),

@@ -76,6 +76,10 @@ quantities! { false, f64:
 }
 
 quantities! { false, f32:
+    /// Steps of an output of 8 bits.
+    Steps in 0.0..=255.0, "a number of steps of 8 bits from 0 to 255";
+    /// How far a pixel may be off, as a part of the output's range.
+    Tolerance in 1e-4..=1.0, "a part of the output's range from 0.0001 to 1";
     /// A part of a whole.
     Part in 0.0..=1.0, "a number from 0 to 1";
     /// A length, scene units.

@@ -1,10 +1,10 @@
 //! How the picture is made.
 
 use super::fault::{Fault, Reason};
-use super::number::{Depth, Part, Pixels, Stops};
+use super::number::{Depth, Pixels, Steps, Stops, Tolerance};
 use super::place::Place;
 use crate::picture::{DEFAULT_SIZE, LARGEST_PICTURE, LARGEST_SIDE};
-use crate::sampling::{Filter, Pattern, Samples};
+use crate::sampling::{Filter, Pattern, SampleCount};
 use crate::stereo::StereoMode;
 use crate::tone::Curve;
 use crate::view::{Shading, View};
@@ -22,16 +22,21 @@ pub struct Render {
     pub width: Option<Pixels>,
     /// Height of the picture, pixels. Default: 968.
     pub height: Option<Pixels>,
-    /// Samples of a pixel: 1, 4, 16 or 64. Default: 1.
-    pub samples: Option<SampleCount>,
+    /// Samples of a pixel: 1, 4, 16 or 64, or for example "adaptive:16". Default: 1.
+    pub samples: Option<Count>,
+    /// How far a pixel of few samples may be off where they are adaptive, as a part of the output's range. Default: 0.01.
+    pub error: Option<Tolerance>,
+    /// Edge of the blocks of pixels that may be interpolated where samples are adaptive: 1, 2, 4 or 8. Default: 1.
+    pub block: Option<Block>,
     /// Where in a pixel the samples lie: "regular", "rotated" or "r2". Default: "regular".
     pub pattern: Option<Pattern>,
     /// How much each counts: "box", "tent" or "gaussian". Default: "box".
     pub filter: Option<Filter>,
-    /// How many times a ray may be reflected or refracted, 0 to 16. Default: 5.
+    /// How many times a ray may be reflected or refracted, 0 to 16. Default: 16.
     pub depth: Option<Depth>,
-    /// Rays that can change no colour by more than this part of their light are left out, 0 to 1. Default: 1/512.
-    pub cutoff: Option<Part>,
+    /// Rays are left out as long as that can change no channel of the output by more than so many steps of 8 bits, 0 to
+    /// 255. Default: 0.9.
+    pub cutoff: Option<Steps>,
     /// Normals: of the triangle ("flat"), or as the material says ("phong"). Default: "phong".
     pub shading: Option<Shading>,
     /// Brightness in stops, each of which doubles the light, -30 to 30. Default: 0.
@@ -66,7 +71,10 @@ impl Render {
         fn set<T: Copy>(value: &mut T, given: Option<T>) {
             *value = given.unwrap_or(*value);
         }
-        set(&mut view.samples, self.samples.map(|samples| samples.0));
+        set(&mut view.samples, self.samples.map(|count| count.0.samples));
+        set(&mut view.adaptive, self.samples.map(|count| count.0.adaptive));
+        set(&mut view.tolerance, self.error.map(|error| error.0));
+        set(&mut view.block, self.block.map(|block| block.0));
         set(&mut view.pattern, self.pattern);
         set(&mut view.filter, self.filter);
         set(&mut view.depth, self.depth.map(|depth| depth.0));
@@ -91,30 +99,61 @@ impl Render {
 
 /// A number of samples that there is.
 #[derive(Clone, Copy, Debug)]
-pub struct SampleCount(pub Samples);
+pub struct Count(pub SampleCount);
 
-impl<'de> Deserialize<'de> for SampleCount {
+impl<'de> Deserialize<'de> for Count {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(SampleCountVisitor)
+        deserializer.deserialize_any(CountVisitor)
     }
 }
 
-struct SampleCountVisitor;
+struct CountVisitor;
 
-impl Visitor<'_> for SampleCountVisitor {
-    type Value = SampleCount;
+impl Visitor<'_> for CountVisitor {
+    type Value = Count;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("1, 4, 16 or 64")
+        f.write_str("1, 4, 16 or 64, or such a number after \"adaptive:\"")
     }
 
-    fn visit_i64<E: Error>(self, value: i64) -> Result<SampleCount, E> {
-        let found = Samples::ALL
-            .into_iter()
-            .find(|samples| i64::from(samples.count()) == value);
-        match found {
-            Some(samples) => Ok(SampleCount(samples)),
+    fn visit_i64<E: Error>(self, value: i64) -> Result<Count, E> {
+        match SampleCount::from_name(&value.to_string()) {
+            Some(count) => Ok(Count(count)),
             None => Err(E::invalid_value(Unexpected::Signed(value), &self)),
+        }
+    }
+
+    fn visit_str<E: Error>(self, value: &str) -> Result<Count, E> {
+        match SampleCount::from_name(value).filter(|count| count.adaptive) {
+            Some(count) => Ok(Count(count)),
+            None => Err(E::invalid_value(Unexpected::Str(value), &self)),
+        }
+    }
+}
+
+/// Edge of a block that there is.
+#[derive(Clone, Copy, Debug)]
+pub struct Block(pub u32);
+
+impl<'de> Deserialize<'de> for Block {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(BlockVisitor)
+    }
+}
+
+struct BlockVisitor;
+
+impl Visitor<'_> for BlockVisitor {
+    type Value = Block;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("1, 2, 4 or 8")
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<Block, E> {
+        match value {
+            1 | 2 | 4 | 8 => Ok(Block(value as u32)),
+            _ => Err(E::invalid_value(Unexpected::Signed(value), &self)),
         }
     }
 }

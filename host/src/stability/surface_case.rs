@@ -18,6 +18,7 @@ use oktant_shared::ray::Ray;
 use oktant_shared::shading::{Viewer, shade};
 use oktant_shared::surface::Surface;
 use oktant_shared::traversal::{Standard, Traversal};
+use oktant_shared::variant::PLAIN;
 use oktant_shared::whitted::Traced;
 use std::sync::Arc;
 
@@ -68,7 +69,7 @@ pub fn cases(mesh: Mesh, rays: Vec<Ray>) -> Result<Vec<Case>, LabError> {
         Some(Case {
             scene: scene.clone(),
             ray,
-            surface: Surface::new::<false>(&Frame::zeroed(), &world, &ray, &hit),
+            surface: Surface::new::<PLAIN>(&Frame::zeroed(), &world, &ray, &hit),
             normal: interpolated_normal(&corners, &hit, Vec3::ZERO),
             light: Vec3::Z,
             exponent: 0.0,
@@ -103,8 +104,9 @@ pub fn shaded(case: &Case) -> Vec3 {
         direction: -case.ray.direction.normalize(),
         weight: Vec3::ONE,
         media: Media::AIR,
+        is_seen: false,
     };
-    shade::<Standard, false>(&frame, &case.scene.world(), &surface, &viewer, &mut { Traced::NOTHING })
+    shade::<Standard, PLAIN>(&frame, &case.scene.world(), &surface, &viewer, &mut { Traced::NOTHING })
 }
 
 /// What a ray is inside of when it has left a closed body of one material.
@@ -116,7 +118,7 @@ pub fn through(scene: &Scene, mut ray: Ray) -> Media {
         if !hit.is_hit() {
             break;
         }
-        let surface = Surface::new::<false>(&Frame::zeroed(), &scene.world(), &ray, &hit);
+        let surface = Surface::new::<PLAIN>(&Frame::zeroed(), &scene.world(), &ray, &hit);
         media = if surface.from_front {
             media.entered(0)
         } else {

@@ -34,6 +34,7 @@ impl Draft {
     pub fn simplified(&self, view: &View) -> View {
         let mut view = View {
             samples: Samples::One,
+            adaptive: false,
             ..*view
         };
         if self.is_shallow {

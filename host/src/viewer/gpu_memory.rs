@@ -41,6 +41,20 @@ impl GpuMemory {
         Ok(self.upload(gpu, scene)?.paces.time(frame.depth, rays(frame)) <= GPU_PASS)
     }
 
+    /// The samples of a pixel that a pass of a frame that is sampled adaptively may have: those of a third of the pixels are
+    /// to be as quick as [`GpuMemory::is_quick`] asks, and software takes one at a time, as in [`Gpu`]'s own passes.
+    pub fn samples_of_a_pass(
+        &mut self,
+        gpu: &Arc<Gpu>,
+        scene: &Arc<Scene>,
+        frame: &Frame,
+    ) -> Result<u32, BackendError> {
+        let single = self.upload(gpu, scene)?.paces.time(frame.depth, rays(frame) / 3);
+        let quick = GPU_PASS.as_secs_f64() / single.as_secs_f64().max(1e-9);
+        let most = if gpu.is_software() { 1 } else { frame.most_samples };
+        Ok((quick as u32).clamp(1, most.max(1)))
+    }
+
     /// Adds a pass to a picture; returns its milliseconds.
     pub fn render_pass(
         &mut self,
@@ -51,7 +65,9 @@ impl GpuMemory {
     ) -> Result<f64, BackendError> {
         let uploaded = self.upload(gpu, scene)?;
         let milliseconds = gpu.render_pass_timed(&uploaded.there, picture, pass)?;
-        uploaded.paces.measured(pass.depth, rays(pass), milliseconds);
+        if pass.is_listed == 0 {
+            uploaded.paces.measured(pass.depth, rays(pass), milliseconds);
+        }
         Ok(milliseconds)
     }
 
@@ -75,13 +91,22 @@ impl GpuMemory {
     }
 
     /// A picture in the GPU's memory that nobody looks at.
-    pub fn spare_picture(&mut self, gpu: &Arc<Gpu>, size: [u32; 2]) -> Result<Arc<GpuPicture>, BackendError> {
-        let free =
-            |picture: &&Arc<GpuPicture>| Arc::strong_count(picture) == 1 && [picture.width, picture.height] == size;
+    pub fn spare_picture(
+        &mut self,
+        gpu: &Arc<Gpu>,
+        size: [u32; 2],
+        is_adaptive: bool,
+    ) -> Result<Arc<GpuPicture>, BackendError> {
+        let free = |picture: &&Arc<GpuPicture>| {
+            Arc::strong_count(picture) == 1
+                && [picture.width, picture.height] == size
+                && picture.is_adaptive() == is_adaptive
+        };
         if let Some(picture) = self.spare.iter().find(free) {
+            gpu.forget(picture);
             return Ok(picture.clone());
         }
-        let picture = Arc::new(gpu.picture(size[0], size[1])?);
+        let picture = Arc::new(gpu.picture(size[0], size[1], is_adaptive)?);
         if self.spare.len() >= SPARE_PICTURES {
             self.spare.remove(0);
         }

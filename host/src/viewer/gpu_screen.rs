@@ -180,7 +180,7 @@ impl GpuScreen {
                 return Ok(());
             }
             Some((_, there)) if [there.width, there.height] == size => there,
-            _ => self.gpu.picture(picture.width, picture.height)?,
+            _ => self.gpu.picture(picture.width, picture.height, false)?,
         };
         self.gpu
             .queue

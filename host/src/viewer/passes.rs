@@ -1,33 +1,46 @@
 //! The passes that the samples of a picture are taken in.
 
+use crate::adaptive;
 use oktant_shared::frame::Frame;
 use oktant_shared::sampling::R2;
 use oktant_shared::stereo::EyeView;
 
-/// One pass for each sample, the first of them first, in an order in which a few are spread over the pixel already, so
+/// The samples that any frame gets in the end, or at most.
+pub fn wanted(frame: &Frame) -> u32 {
+    frame.sample_count.max(frame.most_samples)
+}
+
+/// The passes of a frame that is sampled adaptively, those with several samples of a pixel in one; else one pass for each
+/// sample, the first of them first, in an order in which a few are spread over the pixel already, so
 /// that the picture can be shown while it is refined. After an even number of them their mean is the middle of the pixel,
 /// so that the picture does not move; the sequence R2, whose order is good as it is, comes near to that.
-pub fn passes(frame: &Frame) -> impl Iterator<Item = Frame> + use<> {
-    let frame = *frame;
-    (0..frame.sample_count).map(move |i| Frame {
+pub fn passes(frame: &Frame, adaptively: u32) -> Vec<Frame> {
+    if frame.most_samples != 0 {
+        return adaptive::passes(frame, adaptively);
+    }
+    let pass = |i| Frame {
         first_sample: if frame.pattern == R2 {
             i
         } else {
             scattered(i, frame.sample_count)
         },
         sample_count: 1,
-        ..frame
-    })
+        ..*frame
+    };
+    (0..frame.sample_count).map(pass).collect()
 }
 
-/// One pass for each sample, in their own order: summed up they are, to the last bit, what one pass for all makes.
-pub fn ordered_passes(frame: &Frame) -> impl Iterator<Item = Frame> + use<> {
-    let frame = *frame;
-    (0..frame.sample_count).map(move |first_sample| Frame {
+/// As [`passes`], but each sample in its own order: summed up they are, to the last bit, what one pass for all makes.
+pub fn ordered_passes(frame: &Frame, adaptively: u32) -> Vec<Frame> {
+    if frame.most_samples != 0 {
+        return adaptive::passes(frame, adaptively);
+    }
+    let pass = |first_sample| Frame {
         first_sample,
         sample_count: 1,
-        ..frame
-    })
+        ..*frame
+    };
+    (0..frame.sample_count).map(pass).collect()
 }
 
 /// The number of the sample that comes in place `i` of 1, 4, 16 or 64: samples of the first half far from each other,
@@ -55,7 +68,7 @@ mod tests {
     use super::*;
     use bytemuck::Zeroable;
     use glam::{Vec2, vec2};
-    use oktant_shared::sampling::{REGULAR, ROTATED, sample};
+    use oktant_shared::sampling::{Batch, REGULAR, ROTATED, sample};
     use oktant_shared::stereo::{ANAGLYPH, STACKED};
 
     fn frame(pattern: u32, side: u32) -> Frame {
@@ -73,7 +86,7 @@ mod tests {
         for pattern in [REGULAR, ROTATED, R2] {
             for side in [1, 2, 4, 8] {
                 let frame = frame(pattern, side);
-                let mut numbers: Vec<u32> = passes(&frame).map(|pass| pass.first_sample).collect();
+                let mut numbers: Vec<u32> = passes(&frame, 64).iter().map(|pass| pass.first_sample).collect();
                 assert_eq!(numbers[0], 0);
                 numbers.sort_unstable();
                 assert_eq!(numbers, (0..side * side).collect::<Vec<u32>>());
@@ -86,9 +99,10 @@ mod tests {
         for pattern in [REGULAR, ROTATED, R2] {
             for (side, few) in [(2, 2), (4, 2), (4, 4), (8, 4), (8, 6), (8, 16), (8, 32)] {
                 let frame = frame(pattern, side);
-                let places = passes(&frame)
+                let places = passes(&frame, 64)
+                    .into_iter()
                     .take(few)
-                    .map(|pass| sample(&frame, pass.first_sample).place);
+                    .map(|pass| sample(&frame, &Batch::of_frame(&frame), pass.first_sample).place);
                 let places: Vec<Vec2> = places.collect();
                 let mean = places.iter().sum::<Vec2>() / few as f32;
                 let reach = places.iter().map(|place| place.distance(mean)).fold(0.0, f32::max);

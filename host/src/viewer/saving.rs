@@ -47,14 +47,16 @@ impl Saving {
         let [width, height] = task.size;
         let frame = task.view.frame(&task.scene, width, height);
         let size: [u32; 2] = frame.size().into();
-        let mut passes: VecDeque<Frame> = ordered_passes(&frame).collect();
+        let mut passes: VecDeque<Frame> = ordered_passes(&frame, frame.most_samples).into();
         let canvas = match task.engine {
             Engine::Cpu => Canvas::Cpu(Picture::unwritten(size[0], size[1])),
             Engine::Gpu(gpu) => {
-                if memory.is_quick(&gpu, &task.scene, &frame)? {
+                if frame.most_samples != 0 {
+                    passes = ordered_passes(&frame, memory.samples_of_a_pass(&gpu, &task.scene, &frame)?).into();
+                } else if memory.is_quick(&gpu, &task.scene, &frame)? {
                     passes = [frame].into();
                 }
-                let picture = memory.spare_picture(&gpu, size)?;
+                let picture = memory.spare_picture(&gpu, size, frame.most_samples != 0)?;
                 Canvas::Gpu(gpu, picture)
             }
         };

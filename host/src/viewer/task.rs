@@ -108,7 +108,10 @@ impl Plan {
         let wanted = task.view.frame(&task.scene, width, height);
         let frames = match effort {
             Effort::Draft(draft) => vec![frame(&draft)],
-            Effort::Full { preview: true } if task.view.samples != Samples::One => vec![frame(&Draft::FINE), wanted],
+            // An adaptive picture begins with one of its own.
+            Effort::Full { preview: true } if task.view.samples != Samples::One && !task.view.adaptive => {
+                vec![frame(&Draft::FINE), wanted]
+            }
             Effort::Full { .. } => vec![wanted],
         };
         let pictures = frames.into_iter().map(|frame| (frame, frame == wanted)).collect();

@@ -3,7 +3,7 @@
 use super::accident::caught;
 use super::gpu_memory::GpuMemory;
 use super::notice::{Image, Mailbox, Notice, RenderError, Rendered, SaveError};
-use super::passes::{passes, rays};
+use super::passes::{passes, rays, wanted};
 use super::saving::Saving;
 use super::task::{Destination, Engine, Plan, Purpose, Task};
 use super::throttle::Throttle;
@@ -38,14 +38,17 @@ pub struct Worker {
 struct Refinement {
     wanted: u32,
     taken: u32,
+    /// How many passes an adaptive picture has, and how many were taken; the samples of its pixels differ.
+    passes: [u32; 2],
     shown: Instant,
 }
 
 impl Refinement {
-    fn new(frame: &Frame) -> Self {
+    fn new(frame: &Frame, passes: usize) -> Self {
         Refinement {
-            wanted: frame.sample_count,
+            wanted: wanted(frame),
             taken: 0,
+            passes: [passes as u32, 0],
             shown: Instant::now(),
         }
     }
@@ -53,8 +56,17 @@ impl Refinement {
     /// Takes note of a pass; whether what there is should be shown before the rest is there. An odd sample waits for the
     /// one opposite.
     fn shows(&mut self, pass: &Frame) -> bool {
-        self.taken += pass.sample_count;
-        let shows = self.taken.is_multiple_of(2) && self.taken < self.wanted && self.shown.elapsed() >= REFINEMENT;
+        self.passes[1] += 1;
+        let [passes, passed] = self.passes;
+        let is_whole = if pass.most_samples != 0 {
+            self.taken = (self.wanted * passed / passes).max(1);
+            // Where blocks are interpolated, the first rounds leave holes.
+            pass.block == 1 || passed == passes
+        } else {
+            self.taken += pass.sample_count;
+            self.taken.is_multiple_of(2)
+        };
+        let shows = is_whole && self.taken < self.wanted && self.shown.elapsed() >= REFINEMENT;
         if shows {
             self.shown = Instant::now();
         }
@@ -189,8 +201,9 @@ impl Worker {
         let cpu = Cpu::new(task.scene.clone());
         for (frame, complete) in plan.pictures {
             let mut picture = Picture::unwritten(frame.size().x, frame.size().y);
-            let mut refinement = Refinement::new(&frame);
-            for pass in passes(&frame) {
+            let passes = passes(&frame, frame.most_samples);
+            let mut refinement = Refinement::new(&frame, passes.len());
+            for pass in passes {
                 let start = Instant::now();
                 if !cpu.render_pass(&pass, &mut picture, &self.cancel, &silent) {
                     return;
@@ -208,7 +221,7 @@ impl Worker {
                 plan.number,
                 &frame,
                 Image::Cpu(Arc::new(picture)),
-                frame.sample_count,
+                wanted(&frame),
                 complete,
             );
         }
@@ -217,11 +230,13 @@ impl Worker {
     fn show_gpu(&mut self, task: &Task, gpu: &Arc<Gpu>) -> Result<(), BackendError> {
         let Some(plan) = Plan::new(task) else { return Ok(()) };
         for (frame, complete) in plan.pictures {
-            let picture = self.memory.spare_picture(gpu, frame.size().into())?;
+            let picture = self
+                .memory
+                .spare_picture(gpu, frame.size().into(), frame.most_samples != 0)?;
             if !self.refine(task, gpu, &picture, &frame, plan.number)? {
                 return Ok(());
             }
-            self.send(plan.number, &frame, Image::Gpu(picture), frame.sample_count, complete);
+            self.send(plan.number, &frame, Image::Gpu(picture), wanted(&frame), complete);
         }
         Ok(())
     }
@@ -239,12 +254,14 @@ impl Worker {
         frame: &Frame,
         number: u64,
     ) -> Result<bool, BackendError> {
-        let mut refinement = Refinement::new(frame);
-        let frames = if self.memory.is_quick(gpu, &task.scene, frame)? {
+        let frames = if frame.most_samples != 0 {
+            passes(frame, self.memory.samples_of_a_pass(gpu, &task.scene, frame)?)
+        } else if self.memory.is_quick(gpu, &task.scene, frame)? {
             vec![*frame]
         } else {
-            passes(frame).collect()
+            passes(frame, 1)
         };
+        let mut refinement = Refinement::new(frame, frames.len());
         for pass in frames {
             if self.cancelled() {
                 return Ok(false);

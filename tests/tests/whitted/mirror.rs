@@ -16,6 +16,7 @@ use oktant_shared::surface::Surface;
 use oktant_shared::texture::{CHECKERBOARD, Texture};
 use oktant_shared::trace::closest_hit;
 use oktant_shared::traversal::Standard;
+use oktant_shared::variant::EVERYTHING;
 use oktant_tests::meshes::quad;
 use oktant_tests::stage::{Stage, camera, frame, hits, matte, mean, mirror, picture, point_light};
 use std::sync::Arc;
@@ -102,9 +103,9 @@ fn seen_in_mirror(scene: &Scene, frame: &Frame, pixel: u32, hit: &Hit) -> Hit {
     let (x, y) = (pixel % camera.width, pixel / camera.width);
     let ray = camera.ray(x as f32 + 0.5, y as f32 + 0.5, 0.0);
     let world = scene.world();
-    let surface = Surface::new::<true>(frame, &world, &ray, &Slots::of(scene).placed(hit));
+    let surface = Surface::new::<EVERYTHING>(frame, &world, &ray, &Slots::of(scene).placed(hit));
     let onwards = Ray::new(surface.front_origin(), reflected(ray.direction, surface.normal));
-    let seen = closest_hit::<Standard, true>(frame, &world, &onwards);
+    let seen = closest_hit::<Standard, EVERYTHING>(frame, &world, &onwards);
     if seen.triangle & PLANE != 0 {
         seen
     } else {

@@ -16,6 +16,7 @@ use oktant_shared::surface::Surface;
 use oktant_shared::texture::{Texture, WAVES};
 use oktant_shared::trace::closest_hit;
 use oktant_shared::traversal::Standard;
+use oktant_shared::variant::EVERYTHING;
 use oktant_shared::whitted::Traced;
 use oktant_tests::meshes::{ball, turned_inside_out};
 use oktant_tests::stage::{Stage, camera, directional_light, frame, matte, mirror, see};
@@ -90,11 +91,11 @@ fn nothing_is_reflected_below_the_surface() {
         for _ in 0..100_000 {
             let eye = unit(&mut random) * 2.0;
             let ray = Ray::new(eye, unit(&mut random) * 0.99 - eye);
-            let hit = closest_hit::<Standard, true>(&frame, &world, &ray);
+            let hit = closest_hit::<Standard, EVERYTHING>(&frame, &world, &ray);
             if !hit.is_hit() {
                 continue;
             }
-            let surface = Surface::new::<true>(&frame, &world, &ray, &hit);
+            let surface = Surface::new::<EVERYTHING>(&frame, &world, &ray, &hit);
             let view = -ray.direction.normalize();
             let onwards = reflected(-view, surface.normal);
             hits += 1;
@@ -136,11 +137,11 @@ fn shown(mesh: &Mesh, seed: u64) -> Vec<Shown> {
         for _ in 0..2_000 {
             let eye = unit(&mut random) * 4.0;
             let ray = Ray::new(eye, unit(&mut random) * 0.9 - eye);
-            let hit = closest_hit::<Standard, true>(&frame, &world, &ray);
+            let hit = closest_hit::<Standard, EVERYTHING>(&frame, &world, &ray);
             if !hit.is_hit() {
                 continue;
             }
-            let surface = Surface::new::<true>(&frame, &world, &ray, &hit);
+            let surface = Surface::new::<EVERYTHING>(&frame, &world, &ray, &hit);
             let flat = Surface {
                 shadow_point: surface.point,
                 ..surface
@@ -149,13 +150,14 @@ fn shown(mesh: &Mesh, seed: u64) -> Vec<Shown> {
                 direction: -ray.direction.normalize(),
                 weight: Vec3::ONE,
                 media: Media::AIR,
+                is_seen: false,
             };
             all.push(Shown {
                 triangle: hit.triangle,
                 cosine: surface.normal.dot(towards),
                 round: surface.point.normalize().dot(towards).max(0.0),
                 lifted: see(&scene, &frame, &ray).color.x,
-                flat: shade::<Standard, true>(&frame, &world, &flat, &viewer, &mut { Traced::NOTHING }).x,
+                flat: shade::<Standard, EVERYTHING>(&frame, &world, &flat, &viewer, &mut { Traced::NOTHING }).x,
             });
         }
     }

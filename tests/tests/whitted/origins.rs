@@ -11,6 +11,7 @@ use oktant_shared::scene::World;
 use oktant_shared::surface::Surface;
 use oktant_shared::trace::{any_hit, closest_hit};
 use oktant_shared::traversal::Standard;
+use oktant_shared::variant::EVERYTHING;
 use oktant_tests::meshes::icosphere;
 use oktant_tests::stage::{Stage, camera, clear, frame, see};
 
@@ -26,15 +27,15 @@ struct False {
 
 /// Follows a ray into a convex body of glass and out again, as the tracer does.
 fn follow(frame: &Frame, world: &World<'_>, ray: &Ray, random: &mut fastrand::Rng, found: &mut False) -> bool {
-    let hit = closest_hit::<Standard, true>(frame, world, ray);
+    let hit = closest_hit::<Standard, EVERYTHING>(frame, world, ray);
     if !hit.is_hit() {
         return false;
     }
-    let surface = Surface::new::<true>(frame, world, ray, &hit);
+    let surface = Surface::new::<EVERYTHING>(frame, world, ray, &hit);
     assert!(surface.from_front);
     let direction = ray.direction.normalize();
     let meets =
-        |origin: Vec3, direction: Vec3| closest_hit::<Standard, true>(frame, world, &Ray::new(origin, direction));
+        |origin: Vec3, direction: Vec3| closest_hit::<Standard, EVERYTHING>(frame, world, &Ray::new(origin, direction));
     found.reflected += u32::from(meets(surface.front_origin(), reflected(direction, surface.normal)).is_hit());
     let light = loop {
         let light = Vec3::from_array(std::array::from_fn(|_| random.f32() * 2.0 - 1.0));
@@ -46,20 +47,20 @@ fn follow(frame: &Frame, world: &World<'_>, ray: &Ray, random: &mut fastrand::Rn
         t_max: 1e3,
         ..Ray::new(surface.front_origin(), light)
     };
-    found.shadow += u32::from(any_hit::<Standard, true>(frame, world, &shadow));
+    found.shadow += u32::from(any_hit::<Standard, EVERYTHING>(frame, world, &shadow));
     // In, and out where it first can.
     let mut inside = Ray::new(
         surface.back_origin(),
         refracted(direction, surface.normal, 1.0, 1.5).direction,
     );
     for _ in 0..4 {
-        let hit = closest_hit::<Standard, true>(frame, world, &inside);
+        let hit = closest_hit::<Standard, EVERYTHING>(frame, world, &inside);
         if !hit.is_hit() {
             // So near an edge, and out again at once, that the displaced origin lies outside already.
             found.grazing += 1;
             return true;
         }
-        let surface = Surface::new::<true>(frame, world, &inside, &hit);
+        let surface = Surface::new::<EVERYTHING>(frame, world, &inside, &hit);
         if surface.from_front {
             found.entering += 1;
             return true;
@@ -197,14 +198,14 @@ fn rays_that_leave_a_plane_do_not_meet_it() {
             for _ in 0..2_000 {
                 let mut vector = || Vec3::from_array(std::array::from_fn(|_| random.f32() * 2.0 - 1.0));
                 let ray = Ray::new((point + vector() * 3.0) * scale, vector());
-                let hit = closest_hit::<Standard, true>(&frame, &world, &ray);
+                let hit = closest_hit::<Standard, EVERYTHING>(&frame, &world, &ray);
                 if !hit.is_hit() {
                     continue;
                 }
-                let surface = Surface::new::<true>(&frame, &world, &ray, &hit);
+                let surface = Surface::new::<EVERYTHING>(&frame, &world, &ray, &hit);
                 let light = vector() * scale;
                 let light = light * light.dot(surface.side).signum();
-                assert!(!any_hit::<Standard, true>(
+                assert!(!any_hit::<Standard, EVERYTHING>(
                     &frame,
                     &world,
                     &Ray::new(surface.front_origin(), light)

@@ -4,8 +4,8 @@ use super::kernel::Kernel;
 use super::kernel_error::KernelError;
 use super::kernel_module::{ModulePath, create_module};
 use super::layouts::{Layouts, compute_pipeline};
-use super::resources::PLAIN;
 use crate::backend::BackendError;
+use oktant_shared::variant::Variant;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -141,7 +141,7 @@ impl Gpu {
             failure,
         };
         // The one that most need, so that a driver that cannot is found out now.
-        gpu.pipeline(PLAIN)?;
+        gpu.pipeline(Variant::Plain.entry_point())?;
         Ok(gpu)
     }
 

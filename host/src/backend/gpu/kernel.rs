@@ -2,7 +2,7 @@
 
 use super::kernel_error::KernelError;
 use super::kernel_module::{KernelEntryPoint, KernelManifest, compiled_kernel};
-use super::layouts::workgroup;
+use super::layouts::{CHOOSE, workgroup};
 use oktant_shared::bindings::BINDINGS;
 use rspirv::dr::{Module, Operand, load_words};
 use rspirv::spirv::{ExecutionMode, ExecutionModel, MAGIC_NUMBER};
@@ -21,7 +21,15 @@ const TARGETS: [&str; 3] = [
 const MANIFEST: &str = "manifest.toml";
 
 /// What the host launches or draws with whatever is asked for. What casts rays may be missing until it is needed.
-const ALWAYS_NEEDED: [&str; 4] = ["render_plain", "render", "render_general", "hits"];
+const ALWAYS_NEEDED: [&str; 7] = [
+    "render_plain",
+    "render_opaque",
+    "render_mirrors",
+    "render",
+    "render_general",
+    CHOOSE,
+    "hits",
+];
 const DRAWS: [(&str, ExecutionModel); 2] = [
     ("present_vertex", ExecutionModel::Vertex),
     ("present_fragment", ExecutionModel::Fragment),

@@ -3,14 +3,21 @@
 use super::{LINE, TILE};
 use wgpu::BindGroupLayout;
 
+/// What the entry points that render begin with.
+const RENDER: &str = "render";
+/// The entry point that makes the list of a round of adaptive sampling.
+pub(super) const CHOOSE: &str = "choose_pixels";
+
 /// The layouts of all bind groups and pipelines; the doc comment of `kernel/src/lib.rs` says what is where.
 pub(super) struct Layouts {
     /// Set 0 of the entry points that trace: nodes, references, triangles, ids.
     pub scene: BindGroupLayout,
     /// Set 1 of those: the frame.
     pub frame: BindGroupLayout,
-    /// Set 2 of `render` and `render_plain`: the picture, and the work.
+    /// Set 2 of `render` and its like: the picture, the work, the marks, the list and its length.
     pub picture: BindGroupLayout,
+    /// Set 2 of `choose_pixels`: the picture, the marks, the list and its length.
+    pub choice: BindGroupLayout,
     /// Set 2 of `hits`.
     pub hits: BindGroupLayout,
     /// Set 3 of the entry points that look at pixels: what surfaces look like.
@@ -20,6 +27,7 @@ pub(super) struct Layouts {
     /// Set 0 of the probes with two inputs: results, then the inputs.
     pub probe: BindGroupLayout,
     pixels: wgpu::PipelineLayout,
+    choices: wgpu::PipelineLayout,
     pixel_hits: wgpu::PipelineLayout,
     rays: wgpu::PipelineLayout,
     probes_of_one: wgpu::PipelineLayout,
@@ -81,7 +89,8 @@ pub fn compute_pipeline(
 /// Invocations in a workgroup of an entry point, as the host launches it.
 pub fn workgroup(entry: &str) -> [u32; 3] {
     match entry {
-        "render" | "render_plain" | "render_general" | "hits" => [TILE, TILE, 1],
+        "hits" | CHOOSE => [TILE, TILE, 1],
+        _ if entry.starts_with(RENDER) => [TILE, TILE, 1],
         _ => [LINE, 1, 1],
     }
 }
@@ -100,13 +109,15 @@ impl Layouts {
         };
         let scene = group("scene", &[READ; 4]);
         let frame = group("frame", &[wgpu::BufferBindingType::Uniform]);
-        let picture = group("picture", &[WRITE; 2]);
+        let picture = group("picture", &[WRITE, WRITE, WRITE, READ, READ]);
+        let choice = group("choice", &[WRITE; 4]);
         let hits = group("hits", &[WRITE]);
         let appearance = group("appearance", &[READ; 8]);
         let cast = group("cast", &[WRITE, READ]);
         let probe = group("probe", &[WRITE, READ, READ]);
         Layouts {
             pixels: pipeline(&[Some(&scene), Some(&frame), Some(&picture), Some(&appearance)]),
+            choices: pipeline(&[None, Some(&frame), Some(&choice)]),
             pixel_hits: pipeline(&[Some(&scene), Some(&frame), Some(&hits), Some(&appearance)]),
             rays: pipeline(&[Some(&scene), Some(&frame), Some(&cast)]),
             probes_of_one: pipeline(&[Some(&cast)]),
@@ -114,6 +125,7 @@ impl Layouts {
             scene,
             frame,
             picture,
+            choice,
             hits,
             appearance,
             cast,
@@ -124,7 +136,8 @@ impl Layouts {
     /// The layout of an entry point's pipeline.
     pub fn pipeline(&self, entry: &str) -> &wgpu::PipelineLayout {
         match entry {
-            "render" | "render_plain" | "render_general" => &self.pixels,
+            CHOOSE => &self.choices,
+            _ if entry.starts_with(RENDER) => &self.pixels,
             "hits" => &self.pixel_hits,
             "probe_arithmetic" | "probe_color" => &self.probes_of_one,
             _ if entry.starts_with("probe_") => &self.probes_of_two,

@@ -57,7 +57,7 @@ impl Gpu {
     }
 }
 
-/// Two timestamps around a compute pass.
+/// Two timestamps around compute passes.
 pub(super) struct Timer {
     queries: wgpu::QuerySet,
     resolved: wgpu::Buffer,
@@ -84,13 +84,22 @@ impl Timer {
         })
     }
 
-    /// For the descriptor of the pass.
+    /// For the descriptor of the only pass.
     pub fn writes(&self) -> wgpu::ComputePassTimestampWrites<'_> {
         wgpu::ComputePassTimestampWrites {
             query_set: &self.queries,
             beginning_of_pass_write_index: Some(0),
             end_of_pass_write_index: Some(1),
         }
+    }
+
+    /// For the descriptor of a pass, whether it is the first and whether it is the last; none for one in between.
+    pub fn writes_of(&self, is_first: bool, is_last: bool) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
+        (is_first || is_last).then_some(wgpu::ComputePassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: is_first.then_some(0),
+            end_of_pass_write_index: is_last.then_some(1),
+        })
     }
 
     /// Submits the commands and returns the milliseconds between the timestamps.

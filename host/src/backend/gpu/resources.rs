@@ -4,6 +4,7 @@ use super::Gpu;
 use crate::backend::BackendError;
 use crate::scene::Scene;
 use bytemuck::NoUninit;
+use oktant_shared::adaptive::Mark;
 use oktant_shared::frame::Frame;
 use oktant_shared::octree::Root;
 use oktant_shared::parts::Parts;
@@ -20,12 +21,11 @@ pub struct GpuScene {
     pub(super) root: Root,
     /// The entry point that renders it.
     pub(super) entry: &'static str,
+    /// Whether it needs one light and one plain material at most.
+    pub(super) is_plain: bool,
     /// Bytes of all its buffers.
     pub bytes: u64,
 }
-
-/// The entry point that renders what [`Scene::is_plain`].
-pub(super) const PLAIN: &str = "render_plain";
 
 /// A picture in the device's memory: for each pixel the weighted sum of its samples' linear RGB, and of the weights.
 pub struct GpuPicture {
@@ -37,7 +37,20 @@ pub struct GpuPicture {
     pub sums: wgpu::Buffer,
     /// What they cost, in the same order; a single one where that is not counted.
     pub(super) work: wgpu::Buffer,
+    /// What adaptive sampling knows of them, in the same order; a single one where it is not used.
+    pub(super) marks: wgpu::Buffer,
+    /// How many pixels its list has.
+    pub(super) count: wgpu::Buffer,
     pub(super) group: wgpu::BindGroup,
+    /// For the entry point that makes the list.
+    pub(super) choice: wgpu::BindGroup,
+}
+
+impl GpuPicture {
+    /// Whether it can be sampled adaptively.
+    pub fn is_adaptive(&self) -> bool {
+        self.marks.size() >= u64::from(self.width) * u64::from(self.height) * size_of::<Mark>() as u64
+    }
 }
 
 impl Gpu {
@@ -77,38 +90,61 @@ impl Gpu {
             parts: scene.parts,
             planes: scene.planes.clone(),
             root: scene.root,
-            entry: match (scene.parts == Parts::default(), scene.is_plain()) {
-                (true, true) => PLAIN,
-                (true, false) => "render",
-                (false, _) => "render_general",
+            entry: if scene.parts == Parts::default() {
+                scene.variant.entry_point()
+            } else {
+                "render_general"
             },
+            is_plain: scene.is_plain(),
             bytes: geometry.iter().chain(&appearance).map(|buffer| buffer.size()).sum(),
         })
     }
 
-    /// A picture in which nothing is written yet, to be looked at.
+    /// A picture in which nothing is written yet, to be looked at; `is_adaptive` if it is to be sampled adaptively.
     ///
     /// # Errors
     /// As [`Gpu::upload`].
-    pub fn picture(&self, width: u32, height: u32) -> Result<GpuPicture, BackendError> {
-        self.picture_and_work(width, height, 1)
+    pub fn picture(&self, width: u32, height: u32, is_adaptive: bool) -> Result<GpuPicture, BackendError> {
+        self.picture_and_work(width, height, 1, is_adaptive)
     }
 
     /// As [`Gpu::picture`], where also is counted what so many pixels cost.
     ///
     /// # Errors
     /// As [`Gpu::upload`].
-    pub(super) fn picture_and_work(&self, width: u32, height: u32, counted: u64) -> Result<GpuPicture, BackendError> {
-        let sums = self.output("pixels", u64::from(width) * u64::from(height) * 16)?;
+    pub(super) fn picture_and_work(
+        &self,
+        width: u32,
+        height: u32,
+        counted: u64,
+        is_adaptive: bool,
+    ) -> Result<GpuPicture, BackendError> {
+        let pixels = u64::from(width) * u64::from(height);
+        let sums = self.output("pixels", pixels * 16)?;
         let work = self.output("pixels", counted * 16)?;
-        let group = self.group(&self.layouts.picture, &[&sums, &work]);
+        let marked = if is_adaptive { pixels } else { 1 };
+        let marks = self.output("marks", marked * size_of::<Mark>() as u64)?;
+        let list = self.output("listed pixels", marked * 4)?;
+        let count = self.output("listed pixels", 4)?;
+        let group = self.group(&self.layouts.picture, &[&sums, &work, &marks, &list, &count]);
+        let choice = self.group(&self.layouts.choice, &[&sums, &marks, &list, &count]);
         Ok(GpuPicture {
             width,
             height,
             sums,
             work,
+            marks,
+            count,
             group,
+            choice,
         })
+    }
+
+    /// Forgets what is known of a picture's pixels, so that it can be sampled adaptively anew.
+    pub fn forget(&self, picture: &GpuPicture) {
+        let mut encoder = self.encoder();
+        encoder.clear_buffer(&picture.marks, 0, None);
+        self.queue.submit([encoder.finish()]);
     }
 
     /// A buffer that kernels read.

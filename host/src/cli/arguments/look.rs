@@ -1,10 +1,10 @@
 //! How the picture looks.
 
-use super::numbers::{cutoff, distance, elevation, exposure, field_of_view, finite, length};
+use super::numbers::{cutoff, distance, elevation, exposure, field_of_view, finite, length, tolerance};
 use crate::cli::Failure;
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
-use oktant::sampling::{Filter, Pattern, Samples};
+use oktant::sampling::{Filter, Pattern, SampleCount};
 use oktant::source::Source;
 use oktant::stereo::{Stereo, StereoMode};
 use oktant::tone::Curve;
@@ -15,9 +15,18 @@ use oktant_shared::whitted::MAX_DEPTH as MAX_TREE_DEPTH;
 /// How the picture looks. What is not given is as the scene says, or as it is for a mesh alone.
 #[derive(Clone, Debug, Default, Args)]
 pub struct LookArguments {
-    /// Samples of a pixel [default: as the scene says, else 1].
+    /// Samples of a pixel; with adaptive: only where edges or contrast ask for more than one, up to that number
+    /// [default: as the scene says, else 1].
     #[arg(long, value_enum)]
-    pub samples: Option<Samples>,
+    pub samples: Option<SampleCount>,
+    /// How far a pixel of few samples may be off, as a part of the output's range, with --samples adaptive
+    /// [default: as the scene says, else 0.01].
+    #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = tolerance)]
+    pub error: Option<f32>,
+    /// Edge of blocks of pixels of which only the corners are traced where these agree, with --samples adaptive
+    /// [default: as the scene says, else 1: all pixels are traced].
+    #[arg(long, value_enum)]
+    pub block: Option<BlockArgument>,
     /// Where in a pixel the samples lie [default: as the scene says, else regular].
     #[arg(long, value_enum)]
     pub pattern: Option<Pattern>,
@@ -27,11 +36,12 @@ pub struct LookArguments {
     /// Normals: of the triangle (flat), or interpolated between the vertices (phong) [default: as the scene says, else phong].
     #[arg(long, value_enum)]
     pub shading: Option<Shading>,
-    /// How many times a ray may be reflected or refracted, 0 to 16 [default: as the scene says, else 5].
+    /// How many times a ray may be reflected or refracted, 0 to 16 [default: as the scene says, else 16].
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_TREE_DEPTH)))]
     pub depth: Option<u32>,
-    /// Rays that can change no colour by more than this part of their light are left out [default: as the scene says, else 0.002].
-    #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = cutoff)]
+    /// Rays are left out as long as that can change no channel of the output by more than so many steps of 8 bits; 0: none is
+    /// [default: as the scene says, else 0.9].
+    #[arg(long, value_name = "STEPS", allow_negative_numbers = true, value_parser = cutoff)]
     pub cutoff: Option<f32>,
     /// Where the camera stands, degrees: 0 in front (+Z, or -Y with --up z), counterclockwise seen from above
     /// [default: as the scene says, else 0].
@@ -82,7 +92,10 @@ impl LookArguments {
         fn set<T: Copy>(value: &mut T, given: Option<T>) {
             *value = given.unwrap_or(*value);
         }
-        set(&mut view.samples, self.samples);
+        set(&mut view.samples, self.samples.map(|count| count.samples));
+        set(&mut view.adaptive, self.samples.map(|count| count.adaptive));
+        set(&mut view.tolerance, self.error);
+        set(&mut view.block, self.block.map(|block| block.0));
         set(&mut view.pattern, self.pattern);
         set(&mut view.filter, self.filter);
         set(&mut view.shading, self.shading);
@@ -132,6 +145,17 @@ impl LookArguments {
         }
     }
 
+    /// Makes sure that only what is sampled adaptively is told how.
+    pub fn check_sampling(&self, is_adaptive: bool) -> Result<(), Failure> {
+        if !is_adaptive && (self.error.is_some() || self.block.is_some()) {
+            return Err(Failure::usage(
+                "Only pictures that are sampled adaptively have an --error and a --block: leave them out, or give for \
+                 example --samples adaptive:16.",
+            ));
+        }
+        Ok(())
+    }
+
     /// Makes sure that only a picture for two eyes is told how far they are apart.
     pub fn check_eyes(&self, is_stereo: bool) -> Result<(), Failure> {
         if !is_stereo && (self.eye_distance.is_some() || self.convergence.is_some()) {
@@ -164,6 +188,25 @@ impl ValueEnum for StereoArgument {
             None => Some(PossibleValue::new("none").help("A picture for one eye")),
             Some(mode) => mode.to_possible_value(),
         }
+    }
+}
+
+/// Edge of blocks that adaptive sampling may interpolate, pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BlockArgument(pub u32);
+
+impl ValueEnum for BlockArgument {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[BlockArgument(1), BlockArgument(2), BlockArgument(4), BlockArgument(8)]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(match self.0 {
+            1 => "1",
+            2 => "2",
+            4 => "4",
+            _ => "8",
+        }))
     }
 }
 

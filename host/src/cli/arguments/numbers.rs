@@ -28,7 +28,11 @@ pub fn exposure(text: &str) -> Result<f32, String> {
 }
 
 pub fn cutoff(text: &str) -> Result<f32, String> {
-    number(text, 0.0, 1.0, "give a number from 0 to 1")
+    number(text, 0.0, 255.0, "give a number of steps of 8 bits from 0 to 255")
+}
+
+pub fn tolerance(text: &str) -> Result<f32, String> {
+    number(text, 1e-4, 1.0, "give a part of the output's range from 0.0001 to 1")
 }
 
 pub fn distance(text: &str) -> Result<f32, String> {

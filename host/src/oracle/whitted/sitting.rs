@@ -23,6 +23,9 @@ pub enum Takes {
     Grid(u32),
 }
 
+/// A view that leaves out what cannot be seen leaves out, here, rays of no more weight than this.
+const CUTOFF: f64 = 1.0 / (1 << 16) as f64;
+
 /// Everything about a picture that is known before its first pixel.
 pub struct Sitting<'a> {
     tracer: Tracer<'a>,
@@ -62,7 +65,7 @@ impl<'a> Sitting<'a> {
                 scene_size: (high - low).max(DVec3::ZERO).max_element(),
                 shading: view.shading,
                 depth: view.depth,
-                cutoff: f64::from(view.cutoff),
+                cutoff: if view.cutoff == 0.0 { 0.0 } else { CUTOFF },
             },
         }
     }

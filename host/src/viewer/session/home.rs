@@ -30,6 +30,7 @@ impl Session {
         self.view = View {
             shading: kept(self.view.shading, self.home.shading, home.shading),
             samples: kept(self.view.samples, self.home.samples, home.samples),
+            adaptive: kept(self.view.adaptive, self.home.adaptive, home.adaptive),
             stereo,
             ..home
         };
@@ -56,6 +57,9 @@ impl Session {
             light: self.updated_light(&home, focus),
             shading: updated(mine.shading, old.shading, home.shading),
             samples: updated(mine.samples, old.samples, home.samples),
+            adaptive: updated(mine.adaptive, old.adaptive, home.adaptive),
+            tolerance: updated(mine.tolerance, old.tolerance, home.tolerance),
+            block: updated(mine.block, old.block, home.block),
             pattern: updated(mine.pattern, old.pattern, home.pattern),
             filter: updated(mine.filter, old.filter, home.filter),
             depth: updated(mine.depth, old.depth, home.depth),

@@ -172,6 +172,7 @@ fn tone_and_exposure_show_the_same_picture_otherwise() {
 #[test]
 fn the_depth_has_limits() {
     let mut session = session();
+    session.view.depth = 5;
     assert_eq!(session.apply(Input::Deepen(1)), Effect::Render);
     assert_eq!(session.view.depth, 6);
     for (steps, limit) in [(-1, 0), (1, MAX_DEPTH)] {
