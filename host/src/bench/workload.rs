@@ -1,7 +1,7 @@
 //! What is traced: meshes from files, and generated ones.
 
 use super::subject::Subject;
-use crate::generated::{Interior, bumpy_ball, room, soup, split, teapot_in_stadium};
+use crate::generated::{Interior, bumpy_ball, knot, room, soup, split, teapot_in_stadium};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::ray_sets::SetKind;
@@ -24,6 +24,8 @@ pub enum Workload {
     Soup(u32),
     /// [`bumpy_ball`] of at most so many triangles.
     Ball(u32),
+    /// [`knot`] of at most so many triangles.
+    Knot(u32),
     /// Another one, each triangle cut into four.
     Split(Box<Workload>),
 }
@@ -56,6 +58,7 @@ impl Workload {
             Workload::Stadium => inside(teapot_in_stadium()),
             Workload::Soup(triangles) => (soup(*triangles), None),
             Workload::Ball(triangles) => (bumpy_ball(*triangles), None),
+            Workload::Knot(triangles) => (knot(*triangles), None),
             Workload::Split(whole) => {
                 let (mesh, view) = whole.mesh(progress)?;
                 (split(&mesh), view)
@@ -72,6 +75,7 @@ impl fmt::Display for Workload {
             Workload::Stadium => f.write_str("teapot in a stadium"),
             Workload::Soup(triangles) => write!(f, "soup={triangles}"),
             Workload::Ball(triangles) => write!(f, "ball={triangles}"),
+            Workload::Knot(triangles) => write!(f, "knot={triangles}"),
             Workload::Split(whole) => write!(f, "{whole}, split"),
         }
     }
@@ -84,7 +88,8 @@ impl FromStr for Workload {
     fn from_str(text: &str) -> Result<Self, String> {
         let wanted = || {
             format!(
-                "give any of room, stadium, soup, soup=N, ball and ball=N, N up to {MOST} triangles, separated by commas"
+                "give any of room, stadium, soup, ball and knot, the last three with =N or without, N up to {MOST} triangles, \
+                 separated by commas"
             )
         };
         let (name, number) = match text.split_once('=') {
@@ -103,6 +108,7 @@ impl FromStr for Workload {
             ("stadium", None) => Ok(Workload::Stadium),
             ("soup", _) => Ok(Workload::Soup(triangles)),
             ("ball", _) => Ok(Workload::Ball(triangles)),
+            ("knot", _) => Ok(Workload::Knot(triangles)),
             _ => Err(wanted()),
         }
     }
@@ -119,7 +125,17 @@ mod tests {
         assert_eq!("room".parse(), Ok(Workload::Room));
         assert_eq!("soup".parse(), Ok(Workload::Soup(TRIANGLES)));
         assert_eq!("ball=14000000".parse(), Ok(Workload::Ball(14_000_000)));
-        for bad in ["", "bunny", "room=5", "soup=", "soup=0", "ball=-1", "ball=99999999"] {
+        assert_eq!("knot".parse(), Ok(Workload::Knot(TRIANGLES)));
+        for bad in [
+            "",
+            "bunny",
+            "knots=5",
+            "room=5",
+            "soup=",
+            "soup=0",
+            "ball=-1",
+            "ball=99999999",
+        ] {
             assert!(bad.parse::<Workload>().is_err(), "{bad}");
         }
     }

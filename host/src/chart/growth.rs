@@ -19,7 +19,7 @@ const WORK: &str = "work";
 const GROWTH: &str = "growth of the work";
 const LOGARITHM: &str = "the logarithm of the triangles";
 
-/// Bumpy balls of 1,000 triangles and more, four times as many from one to the next, the last one as large as the plan says,
+/// Knots of 1,000 triangles and more, four times as many from one to the next, the last one as large as the plan says,
 /// seen by the default parts. `progress` hears of the stage "measuring".
 ///
 /// # Errors
@@ -28,14 +28,14 @@ pub fn growth(plan: &Plan, progress: Progress<'_>) -> Result<Figure, MeasureErro
     let mut figure = plan.figure(
         "growth",
         "A thousand times the triangles: how much more work is a ray?",
-        "Balls with bumps, by the default parts. Work: nodes and triangle tests that a ray reads in the mean; they are counted and \
-         so the same on every machine. Growth: the same by that of the smallest ball, beside the logarithm of the number of \
+        "Knots that have their shape at every size, by the default parts. Work: nodes and triangle tests that a ray reads in the mean; they are counted and \
+         so the same on every machine. Growth: the same by that of the smallest knot, beside the logarithm of the number of \
          triangles.",
     );
     let triangles = "triangles";
     let mut panels = vec![
         (WORK.to_owned(), Axis::linear("nodes and triangle tests a ray")),
-        (GROWTH.to_owned(), Axis::linear("times that of the smallest ball")),
+        (GROWTH.to_owned(), Axis::linear("times that of the smallest knot")),
     ];
     panels.extend(
         plan.devices
@@ -53,11 +53,11 @@ pub fn growth(plan: &Plan, progress: Progress<'_>) -> Result<Figure, MeasureErro
         })
         .collect();
     let sizes = sizes(plan.largest);
-    // Triangles and work of the smallest ball.
+    // Triangles and work of the smallest knot.
     let mut smallest: Option<(f64, Vec<f64>)> = None;
     for (done, &size) in sizes.iter().enumerate() {
         progress("measuring", done as f32 / sizes.len() as f32);
-        let subject = Workload::Ball(size).subject(&SetKind::ALL, plan.size, &silent)?;
+        let subject = Workload::Knot(size).subject(&SetKind::ALL, plan.size, &silent)?;
         let triangles = subject.mesh.triangles.len() as f64;
         let scene = Arc::new(Scene::new(&subject.mesh, &StructureOptions::default(), &silent)?);
         let mut add = |panel: &str, series: &str, y: f64| {

@@ -47,6 +47,32 @@ fn balls_are_closed_and_have_the_triangles_asked_for() {
 }
 
 #[test]
+fn knots_are_closed_and_have_the_triangles_asked_for() {
+    for (most, count) in [(0, 18), (1_000, 1_000), (4_000, 4_000), (20_000, 19_968)] {
+        let knot = knot(most);
+        assert_eq!(knot.triangles.len(), count);
+        assert!(is_closed(&knot), "{most}");
+        assert!(volume(&knot) > 0.0);
+        // Euler's formula for a closed surface with one hole.
+        assert_eq!(knot.positions.len(), count / 2);
+    }
+}
+
+/// Its shape is there at 1,000 triangles: more of them move the surface by less than an eighth of the tube's radius.
+#[test]
+fn knots_have_their_shape_at_a_thousand_triangles() {
+    let coarse = knot(1_000);
+    let fine = Oracle::new(&knot(256_000));
+    for corners in &coarse.triangles {
+        let [a, b, c] = corners.map(|corner| coarse.positions[corner as usize]);
+        let (middle, normal) = ((a + b + c) / 3.0, (b - a).cross(c - a).normalize());
+        let ray = OracleRay::new(middle - normal * 0.2, normal, 0.0, f32::INFINITY);
+        let hit = fine.closest(&ray).expect("the fine surface is about there");
+        assert!((hit.t - 0.2).abs() < 0.0625, "{} at {middle}", hit.t - 0.2);
+    }
+}
+
+#[test]
 fn splitting_keeps_the_surface() {
     let ball = bumpy_ball(1_000);
     let finer = split(&ball);

@@ -16,7 +16,8 @@ pub struct BenchArguments {
     #[arg(value_name = "MESH")]
     pub meshes: Vec<PathBuf>,
     /// Generated meshes on which to measure, separated by commas: room (from inside), stadium (a teapot in it), soup or
-    /// soup=N (triangles without order), ball or ball=N (a bumpy ball); N triangles, 100,000 unless given.
+    /// soup=N (triangles without order), ball or ball=N (a bumpy ball), knot or knot=N (a smooth knot); N triangles, 100,000
+    /// unless given.
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub scenes: Vec<Workload>,
     /// Measure on each mesh a second time, with each triangle cut into four.
