@@ -6,6 +6,7 @@ mod bins;
 mod cells;
 mod collapse;
 mod emission;
+mod flatten;
 mod items;
 mod metrics;
 mod morton;

@@ -4,13 +4,15 @@
 
 use glam::Vec3;
 use oktant::build_error::BuildError;
+use oktant::generated::{bumpy_ball, knot, room, soup, teapot_in_stadium};
 use oktant::mesh::Mesh;
+use oktant::mesh_source::MeshSource;
 use oktant::model::Model;
 use oktant::progress::silent;
 use oktant::scene::Scene;
 use oktant::shapes::stadium;
 use oktant::structure::StructureOptions;
-use oktant::tree::{BinaryTree, BuildPreset, CollapseOptions, Costs, MAX_BINARY_DEPTH, MAX_LEAF, WideTree};
+use oktant::tree::{BinaryTree, BuildPreset, CollapseOptions, Costs, MAX_LEAF, WideTree};
 use oktant_shared::brute::Brute;
 use oktant_shared::hit::Hit;
 use oktant_shared::octants::MAX_LEVEL;
@@ -111,7 +113,7 @@ fn every_preset_builds_valid_trees_of_hard_meshes() {
                     ..CollapseOptions::default()
                 };
                 let wide = WideTree::of(&binary, &options);
-                wide.validate(&mesh, MAX_BINARY_DEPTH)
+                wide.validate(&mesh, MAX_LEVEL)
                     .unwrap_or_else(|error| panic!("{name} {preset:?}: {error}"));
             }
             let wide = WideTree::build(&mesh, preset, &silent).unwrap();
@@ -136,6 +138,62 @@ fn more_freedom_costs_no_more() {
         let costs: Vec<f64> = costs.collect();
         assert!(costs.is_sorted_by(|a, b| *b <= a * 1.000_01), "{costs:?}");
         assert!(costs[2] < 0.99 * costs[0], "leaves of several triangles pay: {costs:?}");
+    }
+}
+
+/// Triangles whose boxes overlap much make many small nodes, and large structures, unless nodes are filled.
+#[test]
+fn no_structure_takes_more_than_72_bytes_a_triangle() {
+    let bunny = MeshSource::Bunny.load(&silent).unwrap();
+    for (name, mesh) in [
+        ("bunny", bunny),
+        ("room", room().mesh),
+        ("teapot in a stadium", teapot_in_stadium().mesh),
+        ("ball", bumpy_ball(100_000)),
+        ("knot", knot(100_000)),
+        ("soup of 1,000", soup(1_000)),
+        ("soup of 100,000", soup(100_000)),
+        ("soup of 1,000,000", soup(1_000_000)),
+    ] {
+        for preset in BuildPreset::ALL {
+            if preset == BuildPreset::Quality && mesh.triangles.len() > 500_000 {
+                // It takes too long.
+                continue;
+            }
+            let options = StructureOptions {
+                preset,
+                ..StructureOptions::default()
+            };
+            let scene = Scene::new(&mesh, &options, &silent).unwrap();
+            let bytes = scene.structure_bytes() + size_of_val(scene.triangles.as_slice());
+            let each = bytes as f64 / mesh.triangles.len() as f64;
+            println!("{name}, {}: {each:.2}", preset.name());
+            assert!(each <= 72.0, "{name}, {}: {each}", preset.name());
+        }
+    }
+}
+
+/// The cheapest tree by the surface area heuristic, whatever its nodes, is the oracle.
+#[test]
+fn fuller_nodes_cost_little_and_only_where_they_are_needed() {
+    let unlimited = CollapseOptions {
+        nodes: f32::INFINITY,
+        ..CollapseOptions::default()
+    };
+    for (name, mesh, is_needed) in [
+        ("icosphere", meshes::icosphere(6), false),
+        ("room", room().mesh, false),
+        ("soup", soup(200_000), true),
+    ] {
+        let binary = BinaryTree::build(&mesh, BuildPreset::Balanced, &silent).unwrap();
+        let [cheapest, filled] = [unlimited, CollapseOptions::default()].map(|options| WideTree::of(&binary, &options));
+        let [before, after] = [&cheapest, &filled].map(|tree| tree.figures(&Costs::default()));
+        println!("{name}: {before:?} {after:?}");
+        assert_eq!(cheapest.nodes != filled.nodes, is_needed, "{name}");
+        assert!(after.cost <= 1.01 * before.cost, "{name}: {before:?} {after:?}");
+        let limit = f64::from(CollapseOptions::default().nodes) * mesh.triangles.len() as f64;
+        assert!(after.nodes as f64 <= limit, "{name}: {after:?}");
+        assert_eq!(before.nodes as f64 > limit, is_needed, "{name}: {before:?}");
     }
 }
 
@@ -310,4 +368,69 @@ fn builds_are_measured() {
             }
         }
     }
+}
+
+/// 1,600 triangles of sizes from 2^38 down to 2^-120, in several shapes: of the smaller ones f32 holds no surface, so that any
+/// tree of them costs the same, and a chain of nodes with two children each as much as one that is full.
+fn dwindling() -> Vec<(&'static str, Mesh)> {
+    const STEPS: i32 = 1_600;
+    let size = |step: i32, of: i32| 2.0_f32.powf(38.0 - 158.0 * step as f32 / of as f32);
+    let corner = [Vec3::X, Vec3::Y, Vec3::Z];
+    let chain = |steps: i32, place: fn(i32) -> Vec3| {
+        bare((0..steps).map(move |step| corner.map(|corner| (place(step) + corner) * size(step, steps))))
+    };
+    let in_octants = |step: i32| Vec3::from_array([1, 2, 4].map(|bit| if step & bit == 0 { 1.0 } else { -1.0 }));
+    let mut random = fastrand::Rng::with_seed(1);
+    let mut anywhere = || Vec3::from_array([(); 3].map(|()| random.f32() - 0.5));
+    let around: Vec<[Vec3; 3]> = (0..STEPS)
+        .map(|step| [anywhere(), anywhere(), anywhere()].map(|corner| corner * size(step, STEPS)))
+        .collect();
+    // As many of each size, side by side.
+    let crowds = (0..STEPS).map(|id| {
+        let beside = Vec3::splat(1.0 + (id % 10) as f32 * 0.1);
+        corner.map(|corner| (beside + corner * 0.05) * size(id / 10, STEPS / 10))
+    });
+    let halves = chain(158, |_| Vec3::ONE);
+    vec![
+        ("along the diagonal", chain(STEPS, |_| Vec3::ONE)),
+        ("half as large each", halves),
+        ("in one corner", chain(STEPS, |_| Vec3::ZERO)),
+        (
+            "to both sides",
+            chain(STEPS, |step| Vec3::splat([1.0, -1.0][step as usize % 2])),
+        ),
+        ("in all octants", chain(STEPS, in_octants)),
+        ("around the middle", bare(around)),
+        ("ten of each size", bare(crowds)),
+    ]
+}
+
+/// Kernels have a stack for so many levels, and no mesh may need more.
+#[test]
+fn no_node_is_deeper_than_kernels_go() {
+    let unlimited = CollapseOptions {
+        levels: u32::MAX,
+        ..CollapseOptions::default()
+    };
+    let mut deepest = 0;
+    for (name, mesh) in dwindling() {
+        for preset in BuildPreset::ALL {
+            let depth = |tree: &WideTree| tree.figures(&Costs::default()).depth;
+            let binary = BinaryTree::build(&mesh, preset, &silent).unwrap();
+            let cheapest = depth(&WideTree::of(&binary, &unlimited));
+            let tree = WideTree::build(&mesh, preset, &silent).unwrap();
+            println!("{name} {}: {cheapest} {}", preset.name(), depth(&tree));
+            for tree in [tree, WideTree::of(&binary, &CollapseOptions::default())] {
+                tree.validate(&mesh, MAX_LEVEL)
+                    .unwrap_or_else(|error| panic!("{name} {preset:?}: {error}"));
+            }
+            let options = StructureOptions {
+                preset,
+                ..StructureOptions::default()
+            };
+            Scene::new(&mesh, &options, &silent).unwrap_or_else(|error| panic!("{name} {preset:?}: {error}"));
+            deepest = deepest.max(cheapest);
+        }
+    }
+    assert!(deepest > MAX_LEVEL, "these meshes are too easy: {deepest}");
 }

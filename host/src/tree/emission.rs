@@ -2,6 +2,7 @@
 
 use super::binary::BinaryTree;
 use super::collapse::{CollapseOptions, Decisions, children, decide};
+use super::flatten::flatten;
 use super::pages::zeroed;
 use super::slots::{Placing, place};
 use super::wide::{WIDTH, WideChild, WideNode};
@@ -25,18 +26,33 @@ impl BinaryTree {
         options: &CollapseOptions,
         encode: impl Fn(&WideNode) -> N + Sync,
     ) -> WideArrays<N> {
-        let decisions = decide(self, options);
+        let mut decisions = decide(self, options);
+        let (arrays, deepest) = self.written(&decisions, options.placing, &encode);
+        if deepest <= options.levels {
+            return arrays;
+        }
+        flatten(self, &mut decisions, options.levels);
+        self.written(&decisions, options.placing, &encode).0
+    }
+
+    /// The wide tree as it was decided, and its deepest level.
+    fn written<N: Zeroable + Send>(
+        &self,
+        decisions: &Decisions,
+        placing: Placing,
+        encode: &(impl Fn(&WideNode) -> N + Sync),
+    ) -> (WideArrays<N>, u32) {
         let count = decisions.of(&self.nodes[0]).nodes.max(1) as usize;
         let mut nodes = zeroed(count);
         let mut order = zeroed(self.order.len());
         let (root, below) = nodes.split_at_mut(1);
         let writer = Writer {
             tree: self,
-            decisions: &decisions,
-            placing: options.placing,
-            encode: &encode,
+            decisions,
+            placing,
+            encode,
         };
-        writer.subtree(
+        let deepest = writer.subtree(
             0,
             &mut root[0],
             Place {
@@ -46,7 +62,7 @@ impl BinaryTree {
                 first_triangle: 0,
             },
         );
-        WideArrays { nodes, order }
+        (WideArrays { nodes, order }, deepest)
     }
 }
 
@@ -71,8 +87,8 @@ struct Writer<'a, E> {
 const PARALLEL: usize = 4096;
 
 impl<E> Writer<'_, E> {
-    /// Writes the wide node in the place of a binary one, and all below it.
-    fn subtree<N: Send>(&self, index: u32, node: &mut N, place: Place<'_, N>)
+    /// Writes the wide node in the place of a binary one, and all below it; how many levels these have.
+    fn subtree<N: Send>(&self, index: u32, node: &mut N, place: Place<'_, N>) -> u32
     where
         E: Fn(&WideNode) -> N + Sync,
     {
@@ -90,17 +106,17 @@ impl<E> Writer<'_, E> {
                 order: &mut place.order[leaves as usize..],
                 first_triangle: place.first_triangle + leaves,
             },
-        );
+        )
     }
 
-    /// Writes the nodes in the places of some binary ones, and all below them.
-    fn below<N: Send>(&self, inner: &[u32], own: &mut [N], place: Place<'_, N>)
+    /// Writes the nodes in the places of some binary ones, and all below them; how many levels they have in all.
+    fn below<N: Send>(&self, inner: &[u32], own: &mut [N], place: Place<'_, N>) -> u32
     where
         E: Fn(&WideNode) -> N + Sync,
     {
         match inner {
-            [] => {}
-            [index] => self.subtree(*index, &mut own[0], place),
+            [] => 0,
+            [index] => 1 + self.subtree(*index, &mut own[0], place),
             _ => {
                 let (first, second) = inner.split_at(inner.len() / 2);
                 let (first_own, second_own) = own.split_at_mut(first.len());
@@ -122,15 +138,14 @@ impl<E> Writer<'_, E> {
                     order: second_order,
                     first_triangle: place.first_triangle + triangles,
                 };
-                if large {
-                    rayon::join(
-                        || self.below(first, first_own, first_place),
-                        || self.below(second, second_own, second_place),
-                    );
+                let first = || self.below(first, first_own, first_place);
+                let second = || self.below(second, second_own, second_place);
+                let (first, second) = if large {
+                    rayon::join(first, second)
                 } else {
-                    self.below(first, first_own, first_place);
-                    self.below(second, second_own, second_place);
-                }
+                    (first(), second())
+                };
+                first.max(second)
             }
         }
     }
