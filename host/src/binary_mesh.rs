@@ -49,16 +49,7 @@ pub enum Fault {
     NotFinite(usize),
 }
 
-/// Whether a file begins as one of these meshes does; not where it cannot be read, or is a pipe, which can be read only once.
-pub fn is_binary_mesh(path: &Path) -> bool {
-    if !path.is_file() {
-        return false;
-    }
-    let magic = ArrayFile::open(path).and_then(|mut file| file.head(4));
-    magic.is_ok_and(|magic| matches!(magic.as_slice(), b"PTRI" | b"MSH1"))
-}
-
-/// Loads a file that [`is_binary_mesh`]; `progress` hears of the stage "reading". Triangles are in file order; those
+/// Loads a file; `progress` hears of the stage "reading". Triangles are in file order; those
 /// without area are kept.
 ///
 /// # Errors

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use crate::model::Focus;
 use glam::{DVec3, Vec2, Vec3};
 use oktant_shared::triangle::Triangle;
 use rayon::prelude::*;
@@ -63,6 +64,16 @@ impl Mesh {
                 })
             })
             .reduce_with(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    }
+
+    /// A sphere around the box of [`Mesh::bounds`]; the unit sphere where there is none.
+    pub fn bounding_sphere(&self) -> Focus {
+        let (low, high) = self.bounds().unwrap_or((Vec3::NEG_ONE, Vec3::ONE));
+        let radius = (high - low).length() / 2.0;
+        Focus {
+            center: (low + high) / 2.0,
+            radius: if radius > 0.0 { radius } else { 1.0 },
+        }
     }
 
     /// Computes the vertex normals that are missing: all if [`Mesh::normals`] is empty, else those that are zero.

@@ -1,11 +1,16 @@
 //! Where a mesh comes from: a file, or the program itself.
 
+use crate::asset::Asset;
 use crate::balls::balls;
 use crate::binary_mesh::{self, BinaryMeshError};
+use crate::gltf::{self, GltfError};
 use crate::mesh::Mesh;
+use crate::mesh_format::MeshFormat;
+use crate::obj::{self, ObjError};
 use crate::ply::{self, PlyError};
 use crate::progress::Progress;
 use crate::shapes::stadium;
+use crate::stl::{self, StlError};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -22,7 +27,7 @@ pub enum MeshSource {
     Balls,
     /// A room 200 m long with stands, 55,680 triangles, made by code.
     Stadium,
-    /// A PLY file, or one that [`binary_mesh`] reads.
+    /// A file of a [`MeshFormat`].
     File(PathBuf),
 }
 
@@ -35,6 +40,15 @@ pub enum MeshError {
     /// A file of plain binary arrays.
     #[error(transparent)]
     Binary(#[from] BinaryMeshError),
+    /// An STL file.
+    #[error(transparent)]
+    Stl(#[from] StlError),
+    /// An OBJ file.
+    #[error(transparent)]
+    Obj(#[from] ObjError),
+    /// A glTF file.
+    #[error(transparent)]
+    Gltf(#[from] GltfError),
 }
 
 impl MeshSource {
@@ -49,19 +63,42 @@ impl MeshSource {
         }
     }
 
-    /// Loads the mesh; where it has no normals, they are computed from its faces.
+    /// Loads the mesh alone, without what its file says of materials, lights and cameras; where it has no normals, they are
+    /// computed from its faces.
     ///
     /// # Errors
-    /// What [`ply::read`] and [`binary_mesh::read`] return.
+    /// As [`MeshSource::load_asset`].
     pub fn load(&self, progress: Progress<'_>) -> Result<Mesh, MeshError> {
-        let mesh = match self {
-            MeshSource::Bunny => ply::parse(BUNNY, "the built-in bunny", progress)?,
-            MeshSource::Balls => balls(),
-            MeshSource::Stadium => stadium(),
-            MeshSource::File(path) if binary_mesh::is_binary_mesh(path) => binary_mesh::read(path, progress)?,
-            MeshSource::File(path) => ply::read(path, progress)?,
+        Ok(self.load_asset(progress)?.mesh)
+    }
+
+    /// Loads the mesh, which has normals then, and all that comes with it.
+    ///
+    /// # Errors
+    /// What the reader of the file's format returns.
+    pub fn load_asset(&self, progress: Progress<'_>) -> Result<Asset, MeshError> {
+        let path = match self {
+            MeshSource::Bunny => return Ok(Asset::of_mesh(ply::parse(BUNNY, "the built-in bunny", progress)?)),
+            MeshSource::Balls => return Ok(Asset::of_mesh(balls())),
+            MeshSource::Stadium => return Ok(Asset::of_mesh(stadium())),
+            MeshSource::File(path) => path,
         };
-        Ok(mesh.with_normals())
+        let alone = |mesh, path: &PathBuf| Asset {
+            files: vec![path.clone()],
+            ..Asset::of_mesh(mesh)
+        };
+        Ok(match MeshFormat::of(path) {
+            MeshFormat::Ply => alone(ply::read(path, progress)?, path),
+            MeshFormat::Binary => alone(binary_mesh::read(path, progress)?, path),
+            // Its normals are zero, as its triangles are flat.
+            MeshFormat::Stl => Asset {
+                mesh: stl::read(path, progress)?,
+                files: vec![path.clone()],
+                ..Asset::default()
+            },
+            MeshFormat::Obj => obj::read(path, progress)?,
+            MeshFormat::Gltf => gltf::read(path, progress)?,
+        })
     }
 }
 

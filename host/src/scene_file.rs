@@ -22,7 +22,6 @@ mod quad;
 mod render;
 mod sphere;
 mod stereo;
-mod texels;
 mod texture;
 mod vector;
 

@@ -1,5 +1,6 @@
 //! Where a scene comes from, and how it is first seen.
 
+use crate::mesh_format::MeshFormat;
 use crate::mesh_source::{MeshError, MeshSource};
 use crate::model::Model;
 use crate::progress::Progress;
@@ -24,7 +25,7 @@ pub struct Setting {
 /// Something that can be looked at.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// A mesh alone.
+    /// A mesh, with what its file says of materials, lights and cameras.
     Mesh(MeshSource),
     /// A scene file.
     Scene(PathBuf),
@@ -71,17 +72,18 @@ impl Source {
     /// [`SourceError`].
     pub fn load(&self, progress: Progress<'_>) -> Result<Setting, SourceError> {
         Ok(match self {
-            Source::Mesh(mesh) => Setting {
-                model: Model::of_mesh(mesh.load(progress)?),
-                view: View::default(),
-                size: None,
-                files: match mesh {
-                    MeshSource::File(path) => vec![path.clone()],
-                    _ => Vec::new(),
-                },
-            },
+            Source::Mesh(mesh) => mesh.load_asset(progress)?.into_setting(),
             Source::Scene(path) => scene_file::read(path, progress)?,
         })
+    }
+
+    /// Whether it says itself which axis points up.
+    pub fn says_up(&self) -> bool {
+        match self {
+            Source::Scene(_) => true,
+            Source::Mesh(MeshSource::File(path)) => MeshFormat::of(path) == MeshFormat::Gltf,
+            Source::Mesh(_) => false,
+        }
     }
 }
 

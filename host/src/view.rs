@@ -1,6 +1,7 @@
 //! What the user sets about a picture, and the frame that follows from it.
 
 use crate::media::media_at;
+use crate::model::Focus;
 use crate::sampling::{Filter, Pattern, Samples};
 use crate::scene::Scene;
 use crate::stereo::Stereo;
@@ -129,6 +130,31 @@ impl Default for View {
 }
 
 impl View {
+    /// Lets the camera look at `center` from a place so far off it, not zero; returns what it then circles: a sphere that
+    /// just fits into the picture.
+    pub fn look(&mut self, center: Vec3, offset: Vec3) -> Focus {
+        self.camera = Place::at(offset, 1.0, self.up);
+        self.look_from(center, offset.length())
+    }
+
+    /// Keeps the camera's direction, and puts it `distance` from `center`; returns what it then circles.
+    pub fn look_from(&mut self, center: Vec3, distance: f32) -> Focus {
+        let radius = distance * (self.field_of_view / 2.0).to_radians().sin();
+        self.camera.distance = distance / radius;
+        Focus { center, radius }
+    }
+
+    /// Lets the light that a view moves shine from where `light` does, in a scene with that focus.
+    pub fn shine(&mut self, light: &Light, focus: Focus) {
+        let offset = match light.kind {
+            // As far as other lights are, though nobody sees the difference.
+            DIRECTIONAL => light.position * (self.light.distance * focus.radius),
+            AREA => light.position + (light.edge_u + light.edge_v) / 2.0 - focus.center,
+            _ => light.position - focus.center,
+        };
+        self.light = Place::at(offset, focus.radius, self.up);
+    }
+
     /// The frame that takes all samples of a picture of `width` times `height` pixels in one pass. The picture may be
     /// larger: see [`Frame::size`].
     pub fn frame(&self, scene: &Scene, width: u32, height: u32) -> Frame {

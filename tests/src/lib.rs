@@ -1,6 +1,7 @@
 //! Tests of oktant across its crates, and what they share: meshes made by code, classes of rays, the exact reference.
 
 pub mod compare;
+pub mod cost;
 pub mod data;
 pub mod exact;
 pub mod images;

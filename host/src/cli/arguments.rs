@@ -64,7 +64,7 @@ pub enum Command {
     Stability(StabilityArguments),
     /// Trace one ray, and print what it visits and what every test says of the triangles on its way.
     Trace(TraceArguments),
-    /// Read scene files with all that they refer to, and say what is in them, or what is wrong.
+    /// Read scene or mesh files with all that they refer to, and say what is in them, or what is wrong.
     Check(CheckArguments),
     /// List the parts that can be exchanged, and the combinations that are offered.
     Kernels(KernelsArguments),
@@ -79,8 +79,8 @@ pub enum Command {
 
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// Scene files; docs/scene-files.md describes them.
-    #[arg(value_name = "SCENE.toml", required = true)]
+    /// Scene files or mesh files; docs/scene-files.md and docs/files.md describe them.
+    #[arg(value_name = "FILE", required = true)]
     pub scenes: Vec<PathBuf>,
 }
 
@@ -155,7 +155,7 @@ impl ValueEnum for VariantArgument {
 
 #[derive(Debug, Args)]
 pub struct CastArguments {
-    /// A scene file (TOML), a mesh file (PLY, PTRI or MSH1), or one of the built-in meshes `bunny`, `balls` and `stadium`.
+    /// A scene file (TOML), a mesh file (glTF, OBJ, PLY, STL, PTRI or MSH1), or one of the built-in meshes `bunny`, `balls` and `stadium`.
     pub mesh: PathBuf,
     /// The rays: a .npy file of N x 6 numbers (origin, direction) or N x 8 (then tmin, tmax), or a file that begins with
     /// PRAY or RAY1; docs/cast.md describes them.
@@ -222,7 +222,7 @@ pub struct InfoArguments {
 /// Which mesh, and what rays are traced with.
 #[derive(Debug, Default, Args)]
 pub struct MeshArguments {
-    /// A scene file (TOML), a mesh file (PLY, PTRI or MSH1), or one of the built-in meshes `bunny`, `balls` and `stadium` [default: bunny].
+    /// A scene file (TOML), a mesh file (glTF, OBJ, PLY, STL, PTRI or MSH1), or one of the built-in meshes `bunny`, `balls` and `stadium` [default: bunny].
     pub mesh: Option<PathBuf>,
     #[command(flatten)]
     pub structure: StructureArguments,

@@ -74,7 +74,10 @@ pub enum Fault {
     #[error("the file is text in UTF-16; save it as ASCII or UTF-8")]
     Utf16,
     /// The first line is not `ply`.
-    #[error("this is not a PLY file, for its first line is not \"ply\"; convert the mesh to PLY")]
+    #[error(
+        "this is not a PLY file, for its first line is not \"ply\"; convert the mesh to PLY, \
+         or let its name end as its format says (.glb, .gltf, .obj, .stl)"
+    )]
     NotPly,
 
     /// A header without end.
@@ -362,17 +365,4 @@ fn vertices_exist(vertices: usize) -> String {
         1 => "there is only vertex 0".to_owned(),
         _ => format!("the vertices are 0 to {}", vertices - 1),
     }
-}
-
-/// Text from a file, fit for an error message: at most 40 characters, nothing that a terminal obeys.
-pub(super) fn excerpt(text: &[u8]) -> String {
-    const LONGEST: usize = 40;
-    let text = text.trim_ascii();
-    // A character takes four bytes at most.
-    let start = String::from_utf8_lossy(&text[..text.len().min(4 * LONGEST)]);
-    let mut excerpt: String = start.chars().take(LONGEST).flat_map(char::escape_debug).collect();
-    if start.chars().nth(LONGEST).is_some() || text.len() > 4 * LONGEST {
-        excerpt.push_str("...");
-    }
-    excerpt
 }

@@ -8,8 +8,9 @@ use std::collections::BTreeMap;
 use ply_rs::ply::{Encoding, PropertyType, ScalarType};
 
 use super::element::{Column, Element};
-use super::fault::{Fault, excerpt};
+use super::fault::Fault;
 use super::lines::{Line, Lines};
+use crate::excerpt::excerpt;
 
 /// What a header says, and where it ends.
 #[derive(Clone, Debug)]

@@ -11,12 +11,13 @@ use ply_rs::ply::{ElementDef, Encoding, PropertyAccess};
 
 use super::data::Chunk;
 use super::element::Element;
-use super::fault::{Fault, Place, excerpt};
+use super::fault::{Fault, Place};
 use super::header::Header;
 use super::layout::Layout;
 use super::lines::Lines;
 use super::role::Role;
 use super::words::rewrite;
+use crate::excerpt::excerpt;
 
 /// What an element is read into.
 pub(super) trait Record: PropertyAccess {

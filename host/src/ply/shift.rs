@@ -3,19 +3,15 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use crate::shift::{centring, is_near};
+
 use super::face::Faces;
 use super::fault::{Fault, Place};
 use super::vertex::Positions;
 
-/// How many bounding-box diagonals from the origin the centre of an f32 mesh may lie for its vertices to stay as they
-/// are: at 16 of them, f32 still resolves a millionth of the diagonal.
-const NEAR: f64 = 16.0;
-
 /// What has to be subtracted from every position before it is rounded to f32; there must be triangles.
 ///
-/// Zero for an f32 mesh near the origin. Else the centre of the bounding box of the vertices that `faces` use, each
-/// coordinate rounded to a multiple of a power of two between 1/32 and 1/16 of the box's diagonal: then subtracting it
-/// is exact in f64 (Sterbenz), and what is subtracted has few digits.
+/// Zero for an f32 mesh near the origin, else what brings the bounding box of the vertices that `faces` use there.
 pub(super) fn shift(positions: &Positions, faces: &[Faces]) -> DVec3 {
     let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (min, max) = faces
@@ -28,20 +24,10 @@ pub(super) fn shift(positions: &Positions, faces: &[Faces]) -> DVec3 {
                 .fold(empty, |(min, max), position| (min.min(position), max.max(position)))
         })
         .reduce(|| empty, |a, b| (a.0.min(b.0), a.1.max(b.1)));
-    let centre = 0.5 * min + 0.5 * max;
-    let diagonal = (max - min).length();
-    let is_near = centre.length() <= NEAR * diagonal;
-    if is_near && matches!(positions, Positions::Single(_)) {
+    if is_near(min, max) && matches!(positions, Positions::Single(_)) {
         return DVec3::ZERO;
     }
-    // Without its mantissa, a positive number is the largest power of two that is not above it.
-    let step = f64::from_bits(diagonal.to_bits() & f64::INFINITY.to_bits()) / 16.0;
-    centre.map(|coordinate| {
-        // Adding zero makes -0.0 positive, which subtracting then leaves every -0.0 as it is.
-        let rounded = (coordinate / step).round() * step + 0.0;
-        // Not so if the box is a point, or so small that a step is lost next to the coordinate.
-        if rounded.is_finite() { rounded } else { coordinate }
-    })
+    centring(min, max)
 }
 
 /// The positions less the shift, rounded to f32.

@@ -5,10 +5,11 @@ use std::fmt::Write;
 use ply_rs::ply::{PropertyType, ScalarType};
 
 use super::element::{Column, Element, type_name};
-use super::fault::{Fault, Place, excerpt};
+use super::fault::{Fault, Place};
 use super::lines::Line;
 use super::number::{Decimal, is_not_finite};
 use super::role::Role;
+use crate::excerpt::excerpt;
 
 /// Writes the wanted words of a line in the form that ply-rs reads: into one line, and for a long list into further
 /// ones, because ply-rs spends some 60 bytes on a word. Says whether the line has words beyond the last property.

@@ -6,14 +6,15 @@ use super::folder::Folder;
 use super::material::Palette;
 use super::place::Place;
 use super::texture::Textures;
+use crate::asset::Asset;
 use crate::mesh::Mesh;
 use crate::mesh_source::MeshSource;
-use crate::model::{AMBIENT, Focus, Model, needs_coordinates};
+use crate::model::{AMBIENT, Model, needs_coordinates};
 use crate::progress::Progress;
 use crate::source::Setting;
 use crate::transform::{Misplaced, Transform};
 use crate::view::View;
-use glam::{DMat3, DVec3, Vec2, Vec3};
+use glam::{DMat3, DVec3, Vec2};
 use oktant_shared::orbit::Up;
 use oktant_shared::plane::PLANE;
 use std::path::PathBuf;
@@ -38,10 +39,20 @@ pub struct Assembly<'a> {
     mesh: Mesh,
     /// Index of the material for each triangle.
     material_ids: Vec<u32>,
+    /// Images and patterns.
+    textures: Textures,
     /// Meshes that were read; many copies of one are read once.
-    read: Vec<(MeshSource, Arc<Mesh>)>,
+    read: Vec<Loaded>,
     /// Files that were read.
     files: Vec<PathBuf>,
+}
+
+/// A mesh that was read.
+struct Loaded {
+    source: MeshSource,
+    asset: Arc<Asset>,
+    /// What its materials have become, once something is made of them.
+    materials: Option<Vec<u32>>,
 }
 
 /// Makes the scene that a file describes, of at most so many triangles.
@@ -65,6 +76,7 @@ pub fn assemble(
         palette: Palette::new(&description.materials, &textures)?,
         mesh: Mesh::default(),
         material_ids: Vec::new(),
+        textures,
         read: Vec::new(),
         files: Vec::new(),
     };
@@ -90,7 +102,7 @@ pub fn assemble(
     if planes.is_empty() && assembly.mesh.triangles.is_empty() {
         return Err(Fault::new(&Place::ROOT, Reason::Empty));
     }
-    let whole = bounding_sphere(&assembly.mesh);
+    let whole = assembly.mesh.bounding_sphere();
     let mut view = View { up, ..View::default() };
     let focus = description.camera.apply(&mut view, whole)?;
     description.render.apply(&mut view)?;
@@ -99,7 +111,7 @@ pub fn assemble(
     let lights = super::light::build_all(description.light.as_deref(), &mut view, focus.unwrap_or(whole))?;
     let materials = assembly.palette.into_used();
     let mut files = assembly.files;
-    files.extend(textures.files);
+    files.extend(assembly.textures.files);
     files.sort();
     files.dedup();
     Ok(Setting {
@@ -113,8 +125,8 @@ pub fn assemble(
             materials,
             planes,
             lights,
-            textures: textures.textures,
-            texels: textures.texels,
+            textures: assembly.textures.textures,
+            texels: assembly.textures.texels,
             environment,
             ambient: description.ambient.map_or(AMBIENT, |color| color.0),
             focus,
@@ -125,31 +137,50 @@ pub fn assemble(
     })
 }
 
-/// A sphere around a mesh; the unit sphere where there is none.
-fn bounding_sphere(mesh: &Mesh) -> Focus {
-    let (low, high) = mesh.bounds().unwrap_or((Vec3::NEG_ONE, Vec3::ONE));
-    let radius = (high - low).length() / 2.0;
-    Focus {
-        center: (low + high) / 2.0,
-        radius: if radius > 0.0 { radius } else { 1.0 },
-    }
-}
-
 impl Assembly<'_> {
     /// Loads a mesh, once.
-    pub fn load(&mut self, source: MeshSource, place: &Place) -> Result<Arc<Mesh>, Fault> {
-        if let Some((_, mesh)) = self.read.iter().find(|(known, _)| *known == source) {
-            return Ok(mesh.clone());
+    pub fn load(&mut self, source: MeshSource, place: &Place) -> Result<Arc<Asset>, Fault> {
+        if let Some(known) = self.read.iter().find(|known| known.source == source) {
+            return Ok(known.asset.clone());
         }
-        let mesh = source
-            .load(self.progress)
+        let asset = source
+            .load_asset(self.progress)
             .map_err(|error| Fault::new(place, Reason::Mesh(Box::new(error))))?;
-        if let MeshSource::File(path) = &source {
-            self.files.push(path.clone());
+        self.files.extend(asset.files.iter().cloned());
+        let asset = Arc::new(asset);
+        self.read.push(Loaded {
+            source,
+            asset: asset.clone(),
+            materials: None,
+        });
+        Ok(asset)
+    }
+
+    /// The material of each triangle of a mesh that was loaded, and has materials of its own.
+    pub fn own_materials(&mut self, asset: &Arc<Asset>, place: &Place) -> Result<Vec<u32>, Fault> {
+        let known = self.read.iter().find(|known| Arc::ptr_eq(&known.asset, asset));
+        let ids = match known.and_then(|known| known.materials.as_ref()) {
+            Some(ids) => ids.clone(),
+            None => self.adopt(asset, place)?,
+        };
+        Ok(asset.material_ids.iter().map(|id| ids[*id as usize]).collect())
+    }
+
+    /// Makes the materials of a mesh, and their textures, part of the scene; returns their ids.
+    fn adopt(&mut self, asset: &Arc<Asset>, place: &Place) -> Result<Vec<u32>, Fault> {
+        let first = self
+            .textures
+            .append(&asset.textures, &asset.texels)
+            .map_err(|fault| Fault::new(place, fault.into()))?;
+        let ids: Vec<u32> = asset
+            .materials
+            .iter()
+            .map(|material| self.palette.add_own(material, first))
+            .collect();
+        if let Some(known) = self.read.iter_mut().find(|known| Arc::ptr_eq(&known.asset, asset)) {
+            known.materials = Some(ids.clone());
         }
-        let mesh = Arc::new(mesh);
-        self.read.push((source, mesh.clone()));
-        Ok(mesh)
+        Ok(ids)
     }
 
     /// The transform of a shape made with y up: turned by `degrees` about its own axes x, y, z, then put where the scene

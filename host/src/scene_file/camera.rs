@@ -5,7 +5,7 @@ use super::number::{Degrees, Elevation, FieldOfView, Length};
 use super::place::Place;
 use super::vector::Vector;
 use crate::model::Focus;
-use crate::view::{self, View};
+use crate::view::View;
 use glam::Vec3;
 use serde::Deserialize;
 
@@ -43,32 +43,27 @@ impl Camera {
             view.camera.elevation = elevation.0;
         }
         let center = self.look_at.map_or(whole.center, |point| point.0.as_vec3());
-        let distance = match self.position {
-            Some(position) => {
-                for (key, is_there) in [
-                    ("azimuth", self.azimuth.is_some()),
-                    ("elevation", self.elevation.is_some()),
-                    ("distance", self.distance.is_some()),
-                ] {
-                    if is_there {
-                        return Err(Fault::new(&place.key(key), Reason::Excludes("position")));
-                    }
+        if let Some(position) = self.position {
+            for (key, is_there) in [
+                ("azimuth", self.azimuth.is_some()),
+                ("elevation", self.elevation.is_some()),
+                ("distance", self.distance.is_some()),
+            ] {
+                if is_there {
+                    return Err(Fault::new(&place.key(key), Reason::Excludes("position")));
                 }
-                let offset = (position.0 - center.as_dvec3()).as_vec3();
-                if offset == Vec3::ZERO {
-                    return Err(Fault::new(&place.key("position"), Reason::NoDirection));
-                }
-                view.camera = view::Place::at(offset, 1.0, view.up);
-                offset.length()
             }
-            None => match self.distance {
-                Some(distance) => distance.0,
-                None if self.look_at.is_none() => return Ok(None),
-                None => view.camera.distance * whole.radius,
-            },
+            let offset = (position.0 - center.as_dvec3()).as_vec3();
+            if offset == Vec3::ZERO {
+                return Err(Fault::new(&place.key("position"), Reason::NoDirection));
+            }
+            return Ok(Some(view.look(center, offset)));
+        }
+        let distance = match self.distance {
+            Some(distance) => distance.0,
+            None if self.look_at.is_none() => return Ok(None),
+            None => view.camera.distance * whole.radius,
         };
-        let radius = distance * (view.field_of_view / 2.0).to_radians().sin();
-        view.camera.distance = distance / radius;
-        Ok(Some(Focus { center, radius }))
+        Ok(Some(view.look_from(center, distance)))
     }
 }

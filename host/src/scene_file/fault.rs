@@ -3,11 +3,10 @@
 use super::place::{Place, Step};
 use crate::mesh_source::MeshError;
 use crate::nearest::nearest;
-use image::ImageError;
+use crate::texels::{ImageFault, TooManyTexels};
 use serde::de::{Error, Expected, Unexpected};
 use std::borrow::Cow;
 use std::fmt::{self, Display};
-use std::path::PathBuf;
 
 /// At most so many names that somebody gave are listed.
 const MOST_NAMES: usize = 12;
@@ -126,36 +125,9 @@ pub enum Reason {
     /// A mesh that cannot be read.
     #[error("cannot be used: {0}")]
     Mesh(Box<MeshError>),
-    /// An image that cannot be read.
-    #[error("cannot be used: {} is no image that can be read ({reason}); give a PNG, JPEG, HDR or EXR file", path.display())]
-    Image {
-        /// The image.
-        path: PathBuf,
-        /// What is wrong with it.
-        reason: ImageError,
-    },
-    /// A file that is not there.
-    #[error("cannot be used: {}: there is no such file; check the path", .0.display())]
-    NoFile(PathBuf),
-    /// A file that the system does not give.
-    #[error("cannot be used: {} cannot be read ({reason}); check the path", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        reason: std::io::Error,
-    },
-    /// An image without pixels.
-    #[error("cannot be used: {} has no pixels; give another image", .0.display())]
-    EmptyImage(PathBuf),
-    /// An image that is too wide or too high.
-    #[error("cannot be used: {} is too large; give an image of at most {most} pixels a side", path.display())]
-    LongImage {
-        /// The image.
-        path: PathBuf,
-        /// Pixels that a side may have.
-        most: u32,
-    },
+    /// An image that cannot be had.
+    #[error("cannot be used: {0}")]
+    Image(#[from] ImageFault),
     /// Images larger than a GPU takes.
     #[error("has too many pixels: all images together may have {0}; make it smaller")]
     TooManyTexels(usize),
@@ -184,6 +156,12 @@ fn shortened(name: &str) -> Cow<'_, str> {
     match name.char_indices().nth(LONGEST_NAME) {
         Some((end, _)) => format!("{}...", &name[..end]).into(),
         None => name.into(),
+    }
+}
+
+impl From<TooManyTexels> for Reason {
+    fn from(TooManyTexels(most): TooManyTexels) -> Self {
+        Reason::TooManyTexels(most)
     }
 }
 

@@ -6,7 +6,7 @@ use super::number::{Amount, Length, SamplesPerSide};
 use super::place::Place;
 use super::vector::{Direction, Vector};
 use crate::model::{Focus, white_light};
-use crate::view::{self, View};
+use crate::view::View;
 use glam::Vec3;
 use oktant_shared::light::{self, AREA, DIRECTIONAL, POINT};
 use serde::Deserialize;
@@ -73,13 +73,7 @@ pub fn build_all(lights: Option<&[Light]>, view: &mut View, focus: Focus) -> Res
         built.push(light.build(&Place::of("light").index(i))?);
     }
     if let Some(first) = built.first() {
-        let offset = match first.kind {
-            // As far as other lights are, though nobody sees the difference.
-            DIRECTIONAL => first.position * (view.light.distance * focus.radius),
-            AREA => first.position + (first.edge_u + first.edge_v) / 2.0 - focus.center,
-            _ => first.position - focus.center,
-        };
-        view.light = view::Place::at(offset, focus.radius, view.up);
+        view.shine(first, focus);
     }
     Ok(built)
 }

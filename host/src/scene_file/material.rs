@@ -162,6 +162,21 @@ impl Palette {
         Ok(id as u32)
     }
 
+    /// Adds a material of a mesh, whose textures begin with the index `first`; returns its index.
+    pub fn add_own(&mut self, material: &material::Material, first: u32) -> u32 {
+        let moved = |texture: u32| match texture {
+            NO_TEXTURE => NO_TEXTURE,
+            texture => texture + first,
+        };
+        let material = material::Material {
+            texture: moved(material.texture),
+            bump: moved(material.bump),
+            ..*material
+        };
+        self.used.push((None, material));
+        self.used.len() as u32 - 1
+    }
+
     /// A used material.
     pub fn get(&self, id: u32) -> &material::Material {
         &self.used[id as usize].1

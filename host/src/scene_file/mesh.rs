@@ -15,11 +15,11 @@ use std::path::PathBuf;
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Mesh {
-    /// A PLY file. Either this or `name` is mandatory.
+    /// A mesh file: docs/files.md says which. Either this or `name` is mandatory.
     pub file: Option<PathBuf>,
     /// A mesh that is part of the program: "bunny", "balls" or "stadium".
     pub name: Option<Name>,
-    /// Name of its material. Default: clay, or the colours of its vertices.
+    /// Name of its material. Default: its file's materials, else clay, or the colours of its vertices.
     pub material: Option<String>,
     /// Factor of its size, or three along x, y and z; negative mirrors. Default: 1.
     pub scale: Option<Each<Factor, 3>>,
@@ -55,15 +55,20 @@ impl Mesh {
             (None, Some(Name::Balls)) => (MeshSource::Balls, "name"),
             (None, Some(Name::Stadium)) => (MeshSource::Stadium, "name"),
         };
-        let mesh = assembly.load(source, &place.key(key))?;
-        let has_colors = !mesh.colors.is_empty();
-        let material = assembly
-            .palette
-            .id(self.material.as_deref(), has_colors, &place.key("material"))?;
+        let asset = assembly.load(source, &place.key(key))?;
         let scale = self
             .scale
             .map_or(DVec3::ONE, |scale| DVec3::from_array(scale.0.map(|factor| factor.0)));
         let transform = Transform::new(scale, self.rotate.0, self.translate.0);
-        assembly.add(place, mesh.as_ref().clone(), &transform, material)
+        let mesh = asset.mesh.clone();
+        if self.material.is_none() && !asset.materials.is_empty() {
+            let ids = assembly.own_materials(&asset, &place.key(key))?;
+            return assembly.add_mixed(place, mesh, &transform, &ids);
+        }
+        let has_colors = !mesh.colors.is_empty();
+        let material = assembly
+            .palette
+            .id(self.material.as_deref(), has_colors, &place.key("material"))?;
+        assembly.add(place, mesh, &transform, material)
     }
 }

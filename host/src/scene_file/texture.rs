@@ -6,7 +6,7 @@ use super::folder::Folder;
 use super::material::Material;
 use super::number::Repeats;
 use super::place::Place;
-use super::texels;
+use crate::texels::{self, MOST_TEXELS, TooManyTexels};
 use bytemuck::Zeroable;
 use glam::Vec3;
 use image::DynamicImage;
@@ -125,13 +125,13 @@ impl Textures {
     }
 
     fn read_image(&mut self, path: &Path, place: &Place) -> Result<DynamicImage, Fault> {
-        let image = texels::read(path).map_err(|reason| Fault::new(place, reason))?;
+        let image = texels::read(path).map_err(|fault| Fault::new(place, fault.into()))?;
         self.files.push(path.to_path_buf());
         Ok(image)
     }
 
     fn keep(&mut self, image: &DynamicImage, keep: Keep, repeats: f32, place: &Place) -> Result<u32, Fault> {
-        let kept = keep(image, &mut self.texels).map_err(|reason| Fault::new(place, reason))?;
+        let kept = keep(image, &mut self.texels).map_err(|fault| Fault::new(place, fault.into()))?;
         Ok(self.add(texture::Texture { repeats, ..kept }))
     }
 
@@ -143,6 +143,20 @@ impl Textures {
     fn add(&mut self, texture: texture::Texture) -> u32 {
         self.textures.push(texture);
         self.textures.len() as u32 - 1
+    }
+
+    /// Adds textures, and the texels that they refer to; returns the index of the first.
+    pub fn append(&mut self, textures: &[texture::Texture], texels: &[u32]) -> Result<u32, TooManyTexels> {
+        let (first, first_texel) = (self.textures.len() as u32, self.texels.len());
+        if first_texel + texels.len() > MOST_TEXELS {
+            return Err(TooManyTexels(MOST_TEXELS));
+        }
+        self.texels.extend_from_slice(texels);
+        self.textures.extend(textures.iter().map(|own| texture::Texture {
+            first: own.first + first_texel as u32,
+            ..*own
+        }));
+        Ok(first)
     }
 
     /// The index of the texture of colours that a field at a place names.
@@ -168,7 +182,7 @@ impl Textures {
 }
 
 /// What keeps the texels of an image.
-type Keep = fn(&DynamicImage, &mut Vec<u32>) -> Result<texture::Texture, Reason>;
+type Keep = fn(&DynamicImage, &mut Vec<u32>) -> Result<texture::Texture, TooManyTexels>;
 
 impl Texture {
     /// Makes sure that nothing is said that has no meaning.

@@ -13,83 +13,17 @@ mod polygons;
 mod shift;
 mod size;
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-use std::sync::atomic::{AtomicIsize, Ordering};
-use std::sync::{LazyLock, Mutex, PoisonError};
-use std::time::{Duration, Instant};
-
 use oktant::mesh::Mesh;
 use oktant::ply;
 use oktant::progress::silent;
-use rayon::{ThreadPool, ThreadPoolBuilder};
-
-/// The system's allocator, which counts what the threads of [`POOL`] allocate: nothing that other tests do meanwhile.
-struct Counting;
-
-static LIVE: AtomicIsize = AtomicIsize::new(0);
-static PEAK: AtomicIsize = AtomicIsize::new(0);
-
-thread_local! {
-    static IS_COUNTED: Cell<bool> = const { Cell::new(false) };
-}
-
-// SAFETY: every call is passed on unchanged; counting allocates nothing.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        if IS_COUNTED.get() {
-            let size = layout.size() as isize;
-            let live = LIVE.fetch_add(size, Ordering::Relaxed) + size;
-            PEAK.fetch_max(live, Ordering::Relaxed);
-        }
-        // SAFETY: the caller keeps the contract of `alloc`.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
-        if IS_COUNTED.get() {
-            LIVE.fetch_sub(layout.size() as isize, Ordering::Relaxed);
-        }
-        // SAFETY: the caller keeps the contract of `dealloc`.
-        unsafe { System.dealloc(memory, layout) }
-    }
-}
+use oktant_tests::cost::{Cost, Counting};
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// The threads that load, one file at a time, though tests run in parallel.
-static POOL: LazyLock<Mutex<ThreadPool>> = LazyLock::new(|| {
-    let pool = ThreadPoolBuilder::new().num_threads(2);
-    let pool = pool.start_handler(|_| IS_COUNTED.set(true));
-    Mutex::new(pool.build().unwrap())
-});
-
-/// What every file in the world must stay below, if it is small.
-const SMALL_FILE: Cost = Cost {
-    time: Duration::from_secs(1),
-    bytes: 256 << 20,
-};
-
-#[derive(Clone, Copy)]
-struct Cost {
-    time: Duration,
-    /// Allocated at once.
-    bytes: usize,
-}
-
 /// Loads a file, which must not cost more than allowed, and checks what holds for every mesh or every error.
 fn load_within(file: &[u8], limit: Cost) -> Result<Mesh, String> {
-    let pool = POOL.lock().unwrap_or_else(PoisonError::into_inner);
-    let before = LIVE.load(Ordering::Relaxed);
-    PEAK.store(before, Ordering::Relaxed);
-    let start = Instant::now();
-    let result = pool.install(|| ply::parse(file, "some.ply", &silent));
-    let time = start.elapsed();
-    let bytes = PEAK.load(Ordering::Relaxed) - before;
-    drop(pool);
-    assert!(time <= limit.time, "took {time:?}");
-    assert!(bytes <= limit.bytes as isize, "allocated {bytes} bytes");
+    let result = limit.within(|| ply::parse(file, "some.ply", &silent));
     match result {
         Ok(mesh) => {
             check_mesh(&mesh);
@@ -104,7 +38,7 @@ fn load_within(file: &[u8], limit: Cost) -> Result<Mesh, String> {
 }
 
 fn load(file: &[u8]) -> Result<Mesh, String> {
-    load_within(file, SMALL_FILE)
+    load_within(file, Cost::SMALL_FILE)
 }
 
 fn check_mesh(mesh: &Mesh) {

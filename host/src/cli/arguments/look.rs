@@ -133,11 +133,13 @@ impl LookArguments {
     /// Makes sure that what is given has a meaning for a source, as far as that can be said before it is loaded.
     pub fn check(&self, source: &Source) -> Result<(), Failure> {
         let is_scene = matches!(source, Source::Scene(_));
-        if is_scene && self.up.is_some() {
-            return Err(Failure::usage(
+        if source.says_up() && self.up.is_some() {
+            return Err(Failure::usage(if is_scene {
                 "A scene file says itself which axis points up: leave --up out, and say up = \"y\" or up = \"z\" in the \
-                 scene file.",
-            ));
+                 scene file."
+            } else {
+                "In a glTF file +Y points up: leave --up out."
+            }));
         }
         match self.stereo {
             None if is_scene => Ok(()),

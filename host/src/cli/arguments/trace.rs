@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct TraceArguments {
-    /// A scene file (TOML), a mesh file (PLY, PTRI or MSH1), one of the built-in meshes `bunny`, `balls` and `stadium`,
+    /// A scene file (TOML), a mesh file (glTF, OBJ, PLY, STL, PTRI or MSH1), one of the built-in meshes `bunny`, `balls` and `stadium`,
     /// `lab:ROW` (the mesh of that row of `oktant stability`), or `box:x,y,z,x,y,z` (a box from corner to corner).
     #[arg(value_parser = source)]
     pub mesh: TraceSource,

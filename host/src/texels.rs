@@ -1,19 +1,18 @@
 //! The texels of image files.
 
-use super::fault::Reason;
 use glam::Vec3;
 use image::error::LimitErrorKind;
 use image::{DynamicImage, ImageError, ImageReader, Limits};
 use oktant_shared::texture::{HEIGHT_IMAGE, SHARED_EXPONENT_IMAGE, SRGB_IMAGE, Texture, shared_exponent};
 use rayon::prelude::*;
 use std::fs::File;
-use std::io::{BufReader, ErrorKind};
+use std::io::{BufRead, BufReader, Cursor, ErrorKind, Seek};
 use std::path::Path;
 
 /// Most pixels of an image's row or column.
 const LONGEST_SIDE: u32 = 16_384;
 /// Most texels of all images: 256 MiB of them.
-const MOST_TEXELS: usize = 1 << 26;
+pub const MOST_TEXELS: usize = 1 << 26;
 /// Most bytes that reading an image may take.
 const MOST_BYTES: u64 = 2 << 30;
 /// The largest value that a texel with a shared exponent holds.
@@ -21,35 +20,91 @@ const BRIGHTEST: f32 = 65_408.0;
 /// The largest height, so that slopes stay finite.
 const HIGHEST: f32 = 1e6;
 
-/// Reads an image. What it says about transparency is ignored.
+/// Why an image cannot be used. Each sentence begins with the name of the image.
+#[derive(Debug, thiserror::Error)]
+pub enum ImageFault {
+    /// It cannot be decoded.
+    #[error("{name} is no image that can be read ({reason}); give a PNG, JPEG, HDR or EXR file")]
+    Broken {
+        /// The image.
+        name: String,
+        /// What is wrong with it.
+        reason: ImageError,
+    },
+    /// A file that is not there.
+    #[error("{0}: there is no such file; check the path")]
+    Missing(String),
+    /// A file that the system does not give.
+    #[error("{name} cannot be read ({reason}); check the path")]
+    Unreadable {
+        /// The image.
+        name: String,
+        /// What the system says.
+        reason: std::io::Error,
+    },
+    /// No pixels.
+    #[error("{0} has no pixels; give another image")]
+    Empty(String),
+    /// Too wide or too high.
+    #[error("{name} is too large; give an image of at most {most} pixels a side")]
+    TooLong {
+        /// The image.
+        name: String,
+        /// Pixels that a side may have.
+        most: u32,
+    },
+}
+
+/// All images together have more texels than this, which is more than a GPU takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("all images together may have {0} pixels, and there are more; make them smaller")]
+pub struct TooManyTexels(pub usize);
+
+/// Reads an image file. What it says about transparency is ignored.
 ///
 /// # Errors
 /// Why it cannot be had.
-pub fn read(path: &Path) -> Result<DynamicImage, Reason> {
+pub fn read(path: &Path) -> Result<DynamicImage, ImageFault> {
     let unreadable = |reason: std::io::Error| match reason.kind() {
-        ErrorKind::NotFound => Reason::NoFile(path.to_path_buf()),
-        _ => Reason::File {
-            path: path.to_path_buf(),
+        ErrorKind::NotFound => ImageFault::Missing(path.display().to_string()),
+        _ => ImageFault::Unreadable {
+            name: path.display().to_string(),
             reason,
         },
     };
     let file = File::open(path).map_err(unreadable)?;
-    if file.metadata().map_err(unreadable)?.is_dir() {
+    let metadata = file.metadata().map_err(unreadable)?;
+    if metadata.is_dir() {
         return Err(unreadable(ErrorKind::IsADirectory.into()));
     }
+    decode(BufReader::new(file), &path.display().to_string())
+}
+
+/// Reads an image that is in memory; `name` is what errors call it. What it says about transparency is ignored.
+///
+/// # Errors
+/// Why it cannot be had.
+pub fn parse(bytes: &[u8], name: &str) -> Result<DynamicImage, ImageFault> {
+    decode(Cursor::new(bytes), name)
+}
+
+fn decode(bytes: impl BufRead + Seek, name: &str) -> Result<DynamicImage, ImageFault> {
     let broken = |reason: ImageError| match reason {
-        ImageError::Limits(limit) if limit.kind() == LimitErrorKind::DimensionError => Reason::LongImage {
-            path: path.to_path_buf(),
+        ImageError::Limits(limit) if limit.kind() == LimitErrorKind::DimensionError => ImageFault::TooLong {
+            name: name.to_owned(),
             most: LONGEST_SIDE,
         },
-        reason => Reason::Image {
-            path: path.to_path_buf(),
+        reason => ImageFault::Broken {
+            name: name.to_owned(),
             reason,
         },
     };
-    let mut reader = ImageReader::new(BufReader::new(file))
+    let mut reader = ImageReader::new(bytes)
         .with_guessed_format()
-        .map_err(unreadable)?;
+        .map_err(|reason| ImageFault::Unreadable {
+            name: name.to_owned(),
+            reason,
+        })?;
     let mut limits = Limits::default();
     limits.max_image_width = Some(LONGEST_SIDE);
     limits.max_image_height = Some(LONGEST_SIDE);
@@ -57,7 +112,7 @@ pub fn read(path: &Path) -> Result<DynamicImage, Reason> {
     reader.limits(limits);
     let image = reader.decode().map_err(broken)?;
     if image.width() == 0 || image.height() == 0 {
-        return Err(Reason::EmptyImage(path.to_path_buf()));
+        return Err(ImageFault::Empty(name.to_owned()));
     }
     Ok(image)
 }
@@ -67,7 +122,7 @@ pub fn read(path: &Path) -> Result<DynamicImage, Reason> {
 ///
 /// # Errors
 /// Where there are too many texels.
-pub fn add_colors(image: &DynamicImage, texels: &mut Vec<u32>) -> Result<Texture, Reason> {
+pub fn add_colors(image: &DynamicImage, texels: &mut Vec<u32>) -> Result<Texture, TooManyTexels> {
     let is_float = matches!(image, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_));
     let kind = if is_float { SHARED_EXPONENT_IMAGE } else { SRGB_IMAGE };
     let texture = texture(image, kind, texels)?;
@@ -93,7 +148,7 @@ pub fn add_colors(image: &DynamicImage, texels: &mut Vec<u32>) -> Result<Texture
 ///
 /// # Errors
 /// Where there are too many texels.
-pub fn add_heights(image: &DynamicImage, texels: &mut Vec<u32>) -> Result<Texture, Reason> {
+pub fn add_heights(image: &DynamicImage, texels: &mut Vec<u32>) -> Result<Texture, TooManyTexels> {
     let texture = texture(image, HEIGHT_IMAGE, texels)?;
     texels.par_extend(image.to_rgb32f().as_raw().par_chunks_exact(3).map(|pixel| {
         let height = (f64::from(pixel[0]) + f64::from(pixel[1]) + f64::from(pixel[2])) / 3.0;
@@ -107,10 +162,10 @@ pub fn add_heights(image: &DynamicImage, texels: &mut Vec<u32>) -> Result<Textur
 }
 
 /// The texture whose texels are to be added next.
-fn texture(image: &DynamicImage, kind: u32, texels: &[u32]) -> Result<Texture, Reason> {
+fn texture(image: &DynamicImage, kind: u32, texels: &[u32]) -> Result<Texture, TooManyTexels> {
     let (width, height) = (image.width(), image.height());
     if texels.len() + width as usize * height as usize > MOST_TEXELS {
-        return Err(Reason::TooManyTexels(MOST_TEXELS));
+        return Err(TooManyTexels(MOST_TEXELS));
     }
     Ok(Texture {
         first: texels.len() as u32,

@@ -1,0 +1,104 @@
+//! What a model file holds: a mesh, and what comes with it.
+
+use crate::mesh::Mesh;
+use crate::model::{CLAY, Model, needs_coordinates, plain_material};
+use crate::source::Setting;
+use crate::view::View;
+use glam::{Vec2, Vec3};
+use oktant_shared::light::Light;
+use oktant_shared::material::Material;
+use oktant_shared::texture::Texture;
+use std::path::PathBuf;
+
+/// A mesh with normals, with the materials, lights and the camera that its file gives it, if any. All places are in the
+/// mesh's coordinates: [`Mesh::shift`] is subtracted from them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Asset {
+    /// All triangles.
+    pub mesh: Mesh,
+    /// Empty where there are no materials, else the index of its material for each triangle.
+    pub material_ids: Vec<u32>,
+    /// Empty where the file gives none.
+    pub materials: Vec<Material>,
+    /// What materials refer to.
+    pub textures: Vec<Texture>,
+    /// The texels of all images.
+    pub texels: Vec<u32>,
+    /// Empty where the file has none.
+    pub lights: Vec<Light>,
+    /// From where the file wants to be seen.
+    pub camera: Option<Pinhole>,
+    /// The files that it was read from.
+    pub files: Vec<PathBuf>,
+}
+
+/// A pinhole camera of a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pinhole {
+    /// Where it is, scene units.
+    pub eye: Vec3,
+    /// Unit vector along which it looks.
+    pub forward: Vec3,
+    /// Vertical field of view, degrees, 1 to 170.
+    pub field_of_view: f32,
+}
+
+impl Asset {
+    /// A mesh alone, computing the normals that are missing.
+    pub fn of_mesh(mesh: Mesh) -> Self {
+        Asset {
+            mesh: mesh.with_normals(),
+            ..Asset::default()
+        }
+    }
+
+    /// Gives a mesh without texture coordinates some, where a material needs them: (0, 0) for all vertices.
+    pub(crate) fn complete_coordinates(&mut self) {
+        if self.mesh.coordinates.is_empty() && self.materials.iter().any(needs_coordinates) {
+            self.mesh.coordinates = vec![Vec2::ZERO; self.mesh.positions.len()];
+        }
+    }
+
+    /// What there is to see, and from where: what the file does not say is as for a mesh alone.
+    pub fn into_setting(self) -> Setting {
+        let whole = self.mesh.bounding_sphere();
+        let lights = self.lights;
+        let mut model = Model::of_mesh(self.mesh);
+        if !self.materials.is_empty() {
+            model.material_ids = if self.materials.len() > 1 {
+                self.material_ids
+            } else {
+                Vec::new()
+            };
+            model.materials = self.materials;
+            model.textures = self.textures;
+            model.texels = self.texels;
+        }
+        let mut view = View::default();
+        if let Some(camera) = self.camera {
+            view.field_of_view = camera.field_of_view;
+            // Where it looks past everything, it circles what is as far away as the middle of all.
+            let ahead = (whole.center - camera.eye).dot(camera.forward);
+            let distance = if ahead > 0.0 { ahead } else { whole.radius };
+            model.focus = Some(view.look(camera.eye + camera.forward * distance, camera.forward * -distance));
+        }
+        if let Some(first) = lights.first() {
+            view.shine(first, model.focus.unwrap_or(whole));
+            model.lights = lights;
+        }
+        Setting {
+            model,
+            view,
+            size: None,
+            files: self.files,
+        }
+    }
+}
+
+/// The material of triangles for which a file with materials names none.
+pub(crate) fn clay() -> Material {
+    Material {
+        base: CLAY,
+        ..plain_material()
+    }
+}
