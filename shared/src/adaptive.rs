@@ -217,7 +217,7 @@ fn filled(frame: &Frame, known: &Known<'_>, pixel: UVec2) -> Choice {
     let (size, block) = (frame.size(), frame.block);
     let half = block / 2;
     let index = pixel.y * size.x + pixel.x;
-    if (pixel.x % half != 0) | (pixel.y % half != 0) {
+    if (pixel.x | pixel.y) & (half - 1) != 0 {
         return Choice::NOTHING;
     }
     if load(known.marks, index).level() != UNKNOWN {
@@ -228,8 +228,8 @@ fn filled(frame: &Frame, known: &Known<'_>, pixel: UVec2) -> Choice {
         ..Choice::NOTHING
     };
     // Half the block to either side, along the axes on which the pixel lies between corners.
-    let x = if pixel.x % block != 0 { half } else { 0 };
-    let y = if pixel.y % block != 0 { half } else { 0 };
+    let x = if pixel.x & half != 0 { half } else { 0 };
+    let y = if pixel.y & half != 0 { half } else { 0 };
     if ((x == 0) & (y == 0)) | (pixel.x + x >= size.x) | (pixel.y + y >= size.y) {
         return traced;
     }

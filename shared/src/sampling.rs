@@ -72,13 +72,14 @@ impl Batch {
     pub fn among(self, frame: &Frame) -> Self {
         let end = frame.first_sample + frame.sample_count;
         let end = if end < self.samples { end } else { self.samples };
+        let end = if end > frame.first_sample {
+            end
+        } else {
+            frame.first_sample
+        };
         Batch {
             first: frame.first_sample,
-            count: if end > frame.first_sample {
-                end - frame.first_sample
-            } else {
-                0
-            },
+            count: end - frame.first_sample,
             ..self
         }
     }

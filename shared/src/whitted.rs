@@ -157,7 +157,7 @@ fn goes_on(frame: &Frame, ray: &Pending, traced: &Traced) -> bool {
     if frame.cutoff == 0.0 {
         return true;
     }
-    !(steps(frame, traced.color, ray.weight * frame.brightest) <= frame.cutoff)
+    steps(frame, traced.color, ray.weight * frame.brightest) > frame.cutoff
 }
 
 /// What a ray that is not followed contributes, or that has left the scene.
