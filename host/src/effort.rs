@@ -2,7 +2,7 @@
 
 use crate::picture::Picture;
 use glam::Vec4;
-use oktant_shared::display::steps;
+use oktant_shared::display::{STEPS, steps};
 use oktant_shared::frame::Frame;
 use oktant_shared::present::mean_color;
 use rayon::prelude::*;
@@ -36,7 +36,8 @@ impl Effort {
             .map(|(sum, work)| {
                 let cut = cut(*sum, *work);
                 let off = frame.map_or(0.0, |frame| {
-                    f64::from(steps(frame, mean_color(*sum), frame.brightest * cut as f32))
+                    // No output has more.
+                    f64::from(steps(frame, mean_color(*sum), frame.brightest * cut as f32).min(STEPS))
                 });
                 Effort {
                     closest: f64::from(work.x),
