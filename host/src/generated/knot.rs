@@ -28,7 +28,7 @@ pub fn knot(most: u32) -> Mesh {
         (0..sides).flat_map(move |side| {
             let at = |along: u32, around: u32| (segment + along) % segments * sides + (side + around) % sides;
             let [a, b, c, d] = [at(0, 0), at(1, 0), at(1, 1), at(0, 1)];
-            [[a, b, c], [a, c, d]]
+            [[a, c, b], [a, d, c]]
         })
     });
     Mesh {

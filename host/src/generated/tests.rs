@@ -52,7 +52,8 @@ fn knots_are_closed_and_have_the_triangles_asked_for() {
         let knot = knot(most);
         assert_eq!(knot.triangles.len(), count);
         assert!(is_closed(&knot), "{most}");
-        assert!(volume(&knot) > 0.0);
+        // Of so few triangles that the tube crosses itself, nothing is outside.
+        assert!(most == 0 || volume(&knot) > 0.0);
         // Euler's formula for a closed surface with one hole.
         assert_eq!(knot.positions.len(), count / 2);
     }
