@@ -24,7 +24,7 @@ use glam::{UVec2, Vec3, Vec4, uvec2};
 
 /// Rounds in which pixels get more samples. A thread that is thinner than a pixel is followed so many pixels from where the
 /// middle of one met it.
-pub const ROUNDS: u32 = 8;
+pub const ROUNDS: u32 = 4;
 
 /// [`Mark::level`]: nothing is known of the pixel.
 pub const UNKNOWN: u32 = 0;
