@@ -28,7 +28,7 @@ pub fn encoded(frame: &Frame, color: Vec3) -> Vec3 {
 
 /// The most steps by which light of `doubt` in either direction can change a channel of `color`, both linear RGB, 0 and up.
 ///
-/// The sRGB curve is the less steep the brighter, and no tone curve is steeper than [`steepest`]: the steepness at the
+/// The sRGB curve is the less steep the brighter, and no tone curve is steeper than is said below: the steepness at the
 /// darkest that the colour can be bounds that of the whole way.
 pub fn steps(frame: &Frame, color: Vec3, doubt: Vec3) -> f32 {
     let darkest = Vec3::new(
