@@ -249,15 +249,14 @@ fn samples_go_where_they_matter_in_large_pictures() {
         let mut backend = GpuBackend::new(gpu.clone(), scene).expect("it fits");
         backend.render(frame, &silent).expect("the device works")
     };
-    // Wanted are 0.35; the bunny needs a little more.
-    for (name, tolerance, most) in [
-        ("bunny", 0.0005, 0.36),
-        ("mirrors", 0.01, 0.35),
-        ("cornell", 0.001, 0.35),
-    ] {
+    let mut missed = Vec::new();
+    for (name, tolerance) in [("bunny", 0.0005), ("mirrors", 0.01), ("cornell", 0.001)] {
         let (error, part) = by_sixteen(name, tolerance, uvec2(1280, 968), &mut render);
-        assert!(error <= 1.05 && part <= most, "{name}");
+        if error > 1.05 || part > 0.35 {
+            missed.push(name);
+        }
     }
+    assert!(missed.is_empty(), "{missed:?}");
 }
 
 /// Oracle: 16 samples everywhere. White threads before black, down to a third of a pixel wide: the middles of their pixels meet
@@ -373,7 +372,7 @@ fn a_gpu_samples_where_the_cpu_does() {
             .filter(|(a, b)| farthest(a, b) > 1)
             .count();
         println!("{name}, block {block}: {others} pixels of other levels, {off} off by more than 1");
-        assert!(others <= 97 && off <= 97, "{name}, block {block}: more than one in 200");
+        assert!(others <= 20 && off <= 60, "{name}, block {block}");
     }
 }
 
