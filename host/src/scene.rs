@@ -1,7 +1,9 @@
 //! A model with the structure that rays are traced through, in the arrays that the kernel reads.
 
+mod memory;
 mod validate;
 
+pub use memory::Memory;
 pub use validate::InvalidModel;
 pub(crate) use validate::validate as validate_model;
 
@@ -11,10 +13,10 @@ use crate::model::{Focus, Model, needs_coordinates, white_light};
 use crate::progress::Progress;
 use crate::structure::{InvalidStructure, Structure, StructureOptions};
 use bytemuck::Zeroable;
-use glam::{UVec4, Vec2, Vec3};
+use glam::{UVec4, Vec2, Vec3, Vec4};
 use oktant_shared::environment::Environment;
 use oktant_shared::light::{AREA, Light};
-use oktant_shared::material::Material;
+use oktant_shared::material::{Material, SMOOTH_NORMALS, VERTEX_COLORS};
 use oktant_shared::octree::Root;
 use oktant_shared::parts::Parts;
 use oktant_shared::plane::Plane;
@@ -34,10 +36,12 @@ pub struct Scene {
     pub root: Root,
     /// The structure's nodes.
     pub nodes: Vec<UVec4>,
-    /// Slots of triangles, leaf by leaf.
+    /// Slots of triangles, leaf by leaf; where triangles are indexed, the vertices of each slot.
     pub references: Vec<u32>,
-    /// The triangles by slot.
+    /// The triangles by slot; none where they are indexed.
     pub triangles: Vec<Triangle>,
+    /// The corners of indexed triangles by vertex, in rows; else none.
+    pub corners: Vec<Vec4>,
     /// The triangles' ids by slot.
     pub ids: Vec<u32>,
     /// Normals and colours by vertex; a single one where the mesh has neither.
@@ -121,7 +125,9 @@ impl Scene {
         let mesh = &model.mesh;
         let has_normals = !mesh.normals.is_empty();
         let has_colors = !mesh.colors.is_empty();
-        let vertices = if has_normals || has_colors {
+        let is_indexed = parts.traversal.is_indexed();
+        // Normals of indexed triangles lie beside their corners.
+        let vertices = if (has_normals && !is_indexed) || has_colors {
             (0..mesh.positions.len())
                 .into_par_iter()
                 .map(|i| Vertex {
@@ -153,10 +159,13 @@ impl Scene {
             radius: bounds.map_or(1.0, |(low, high)| (high - low).length() / 2.0),
         });
         let mut materials = model.materials;
-        if vertices.is_empty() {
-            for material in &mut materials {
-                material.flags &= !(oktant_shared::material::SMOOTH_NORMALS | oktant_shared::material::VERTEX_COLORS);
-            }
+        let given = match (vertices.is_empty(), has_normals && is_indexed) {
+            (false, _) => SMOOTH_NORMALS | VERTEX_COLORS,
+            (true, true) => SMOOTH_NORMALS,
+            (true, false) => 0,
+        };
+        for material in &mut materials {
+            material.flags &= given | !(SMOOTH_NORMALS | VERTEX_COLORS);
         }
         let mut lights = model.lights.into_iter();
         let light = lights.next().unwrap_or(Light {
@@ -169,7 +178,16 @@ impl Scene {
             root: structure.root,
             nodes: structure.nodes,
             references: never_empty(structure.references),
-            triangles: never_empty(structure.triangles),
+            triangles: if is_indexed {
+                Vec::new()
+            } else {
+                never_empty(structure.triangles)
+            },
+            corners: if is_indexed {
+                never_empty(structure.corners)
+            } else {
+                Vec::new()
+            },
             ids: never_empty(structure.ids),
             vertices: never_empty(vertices),
             coordinates: never_empty(model.mesh.coordinates),
@@ -190,10 +208,10 @@ impl Scene {
             low,
             high,
         };
-        let is_fast = scene.is_plain() && scene.parts == Parts::default();
-        if scene.material_ids.len() < scene.triangles.len() && !is_fast {
-            // Only what renders plain scenes with the default parts does without, whatever the number of materials.
-            scene.material_ids = vec![0; scene.triangles.len()];
+        let is_fast = scene.is_plain() && matches!(scene.parts, Parts::STANDARD | Parts::COMPACT);
+        if scene.material_ids.len() < scene.ids.len() && !is_fast {
+            // Only what renders plain scenes without the general parts does without, whatever the number of materials.
+            scene.material_ids = vec![0; scene.ids.len()];
         }
         scene
     }
@@ -204,9 +222,18 @@ impl Scene {
             root: self.root,
             nodes: &self.nodes,
             references: &self.references,
-            triangles: bytemuck::cast_slice(&self.triangles),
+            triangles: self.rows(),
             ids: &self.ids,
             parts: self.parts.number(),
+        }
+    }
+
+    /// The rows that triangles are made of.
+    pub fn rows(&self) -> &[Vec4] {
+        if self.parts.traversal.is_indexed() {
+            &self.corners
+        } else {
+            bytemuck::cast_slice(&self.triangles)
         }
     }
 
@@ -254,25 +281,6 @@ impl Scene {
     /// Half the diagonal of the bounding box, scene units: the radius of a sphere around it.
     pub fn radius(&self) -> f32 {
         (self.high - self.low).length() / 2.0
-    }
-
-    /// Bytes of the structure without the triangles.
-    pub fn structure_bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice()) + size_of_val(self.references.as_slice()) + size_of_val(self.ids.as_slice())
-    }
-
-    /// Bytes of all arrays.
-    pub fn bytes(&self) -> usize {
-        self.structure_bytes()
-            + size_of_val(self.triangles.as_slice())
-            + size_of_val(self.vertices.as_slice())
-            + size_of_val(self.coordinates.as_slice())
-            + size_of_val(self.material_ids.as_slice())
-            + size_of_val(self.materials.as_slice())
-            + size_of_val(self.lights.as_slice())
-            + size_of_val(self.planes.as_slice())
-            + size_of_val(self.textures.as_slice())
-            + size_of_val(self.texels.as_slice())
     }
 }
 

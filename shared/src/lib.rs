@@ -35,6 +35,7 @@ pub mod light;
 pub mod material;
 pub mod medium;
 pub mod normal;
+pub mod octahedral;
 pub mod octants;
 pub mod octree;
 pub mod optics;

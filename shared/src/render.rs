@@ -6,7 +6,7 @@ use crate::medium::Media;
 use crate::plane::PLANE;
 use crate::ray::Ray;
 use crate::sampling::sample;
-use crate::scene::World;
+use crate::scene::{Scene, World};
 use crate::shading::{Viewer, shade};
 use crate::stereo::EyeView;
 use crate::surface::Surface;
@@ -42,6 +42,13 @@ pub struct Pixel {
 /// `FULL` renders everything. Without it, a scene that has no more than one opaque material without textures, one light
 /// that is no area, and no planes is rendered alike and faster; what else there is, is ignored.
 pub fn render_pixel<V: Traversal, const FULL: bool>(frame: &Frame, world: &World<'_>, pixel: UVec2) -> Pixel {
+    let world = &World {
+        scene: Scene {
+            parts: V::parts(world.scene.parts),
+            ..world.scene
+        },
+        ..*world
+    };
     let mut result = Pixel {
         sum: Vec4::ZERO,
         work: Vec4::ZERO,

@@ -7,7 +7,7 @@ use oktant::build_error::BuildError;
 use oktant::mesh::Mesh;
 use oktant::model::Model;
 use oktant::progress::silent;
-use oktant::scene::Scene;
+use oktant::scene::{Memory, Scene};
 use oktant::shapes::stadium;
 use oktant::structure::StructureOptions;
 use oktant::tree::{BinaryTree, BuildPreset, CollapseOptions, Costs, MAX_BINARY_DEPTH, MAX_LEAF, WideTree};
@@ -287,7 +287,7 @@ fn builds_are_measured() {
                             let start = Instant::now();
                             let scene = Scene::of_model(model, &options, &silent).unwrap();
                             let time = start.elapsed().as_secs_f64();
-                            bytes = scene.structure_bytes() + size_of_val(scene.triangles.as_slice());
+                            bytes = Memory::of(&scene).traced();
                             time
                         })
                     })

@@ -11,7 +11,7 @@ use oktant_shared::hit::Hit;
 use oktant_shared::parts::{BoxKind, Parts, TraversalKind, TriangleKind};
 use oktant_shared::ray::Ray;
 use oktant_shared::render::{hit_pixel, render_pixel};
-use oktant_shared::traversal::{Standard, Traversal};
+use oktant_shared::traversal::{Compact, Standard, Traversal};
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -81,10 +81,12 @@ impl Cpu {
     ) -> bool {
         let world = self.scene.world();
         let size = frame.size();
-        let body = match (self.scene.parts == Parts::default(), self.scene.is_plain()) {
-            (true, true) => render_pixel::<Standard, false>,
-            (true, false) => render_pixel::<Standard, true>,
-            (false, _) => render_pixel::<General, true>,
+        let body = match (self.scene.parts, self.scene.is_plain()) {
+            (Parts::STANDARD, true) => render_pixel::<Standard, false>,
+            (Parts::STANDARD, false) => render_pixel::<Standard, true>,
+            (Parts::COMPACT, true) => render_pixel::<Compact, false>,
+            (Parts::COMPACT, false) => render_pixel::<Compact, true>,
+            _ => render_pixel::<General, true>,
         };
         let overwrite = frame.first_sample == 0;
         let rows = size.y.div_ceil(TILE);
@@ -127,10 +129,10 @@ impl Backend for Cpu {
         let world = self.scene.world();
         let size = frame.size();
         let mut hits = vec![Hit::miss(0.0); size.x as usize * size.y as usize];
-        let body = if self.scene.parts == Parts::default() {
-            hit_pixel::<Standard>
-        } else {
-            hit_pixel::<General>
+        let body = match self.scene.parts {
+            Parts::STANDARD => hit_pixel::<Standard>,
+            Parts::COMPACT => hit_pixel::<Compact>,
+            _ => hit_pixel::<General>,
         };
         for_each_tile(
             (&mut hits, &mut vec![(); size.x as usize * size.y as usize]),

@@ -27,7 +27,7 @@ struct Arguments {
     /// Print the module that is there as SPIR-V assembly.
     #[arg(long, group = "mode")]
     disassemble: bool,
-    /// The kernel crate [default: kernel, in oktant's workspace].
+    /// The kernel crate [default: kernel, in oktant's workspace, and, unless --out or --disassemble is given, kernel/probes].
     #[arg(long = "crate", value_name = "DIR")]
     crate_dir: Option<PathBuf>,
     /// Where the module and its manifest belong [default: compiled, in the kernel crate].
@@ -62,6 +62,15 @@ fn run(arguments: &Arguments) -> Result<String, Error> {
         .parent()
         .expect("the builder lies in the folder of the kernel");
     let crate_dir = arguments.crate_dir.as_deref().unwrap_or(kernel);
+    let done = build(arguments, crate_dir)?;
+    if arguments.crate_dir.is_some() || arguments.out.is_some() || arguments.disassemble {
+        return Ok(done);
+    }
+    // What tests run, from the same sources.
+    Ok(format!("{done}\n{}", build(arguments, &kernel.join("probes"))?))
+}
+
+fn build(arguments: &Arguments, crate_dir: &Path) -> Result<String, Error> {
     let out = arguments.out.clone().unwrap_or_else(|| crate_dir.join("compiled"));
     if arguments.disassemble {
         let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
@@ -82,28 +91,26 @@ fn run(arguments: &Arguments) -> Result<String, Error> {
 
 fn check(crate_dir: &Path, out: &Path, compile: bool) -> Result<String, Error> {
     let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
+    let what = format!("What is compiled in {}", out.display());
     manifest.check_sources(crate_dir)?;
     let module = read(&out.join(&manifest.file))?;
     manifest.check_module(&module)?;
     if !compile {
-        return Ok("The compiled kernel belongs to its sources.".into());
+        return Ok(format!("{what} belongs to its sources."));
     }
     let compiler = match Compiler::find(crate_dir) {
         Ok(compiler) if compiler.version() == manifest.rustc => compiler,
         Ok(compiler) => {
             return Ok(format!(
-                "The compiled kernel belongs to its sources; its bytes were not compared, because it was compiled by {} \
-                 and here is {}.",
+                "{what} belongs to its sources; its bytes were not compared, because it was compiled by {} and here is {}.",
                 manifest.rustc,
                 compiler.version()
             ));
         }
         Err(Error::NoCompiler) => {
-            return Ok(
-                "The compiled kernel belongs to its sources; its bytes were not compared, because rust-gpu's compiler is \
-                 not installed."
-                    .into(),
-            );
+            return Ok(format!(
+                "{what} belongs to its sources; its bytes were not compared, because rust-gpu's compiler is not installed."
+            ));
         }
         Err(error) => return Err(error),
     };
@@ -117,7 +124,7 @@ fn check(crate_dir: &Path, out: &Path, compile: bool) -> Result<String, Error> {
     if described != manifest {
         return Err(Error::Stale("the manifest is not what the builder would write".into()));
     }
-    Ok("The compiled kernel is, byte for byte, what its sources compile to.".into())
+    Ok(format!("{what} is, byte for byte, what its sources compile to."))
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Error> {

@@ -151,13 +151,29 @@ impl Gpu {
     /// # Errors
     /// [`BackendError::Kernel`] where the driver or naga does not take the kernel or one of the pipelines.
     pub fn with_kernel(&self, kernel: Arc<Kernel>) -> Result<Self, BackendError> {
+        let gpu = self.with_probes(kernel)?;
+        let entries: Vec<_> = {
+            let pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+            pipelines.keys().copied().collect()
+        };
+        for entry in entries {
+            gpu.pipeline(entry)?;
+        }
+        Ok(gpu)
+    }
+
+    /// The same device with a module that may have nothing but probes, and with no pipelines yet.
+    ///
+    /// # Errors
+    /// [`BackendError::Kernel`] where the driver or naga does not take the module.
+    pub fn with_probes(&self, kernel: Arc<Kernel>) -> Result<Self, BackendError> {
         let options = GpuOptions {
             kernel: Some(kernel),
             ..self.options.clone()
         };
         let (module, passthrough) = load_kernel(&self.device, self.adapter.get_info().backend, &options)
             .map_err(|reason| failed(&self.name, &options, &reason))?;
-        let gpu = Gpu {
+        Ok(Gpu {
             name: self.name.clone(),
             instance: self.instance.clone(),
             adapter: self.adapter.clone(),
@@ -169,15 +185,7 @@ impl Gpu {
             module,
             pipelines: Mutex::default(),
             failure: self.failure.clone(),
-        };
-        let entries: Vec<_> = {
-            let pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
-            pipelines.keys().copied().collect()
-        };
-        for entry in entries {
-            gpu.pipeline(entry)?;
-        }
-        Ok(gpu)
+        })
     }
 
     /// Makes something of the kernel on the device.

@@ -52,6 +52,29 @@ impl Kernel {
     /// # Errors
     /// [`KernelError`], see there.
     pub fn read(path: &Path) -> Result<Self, KernelError> {
+        let (kernel, module) = Self::open(path)?;
+        for (entry, model) in DRAWS {
+            if !entries(&module).any(|(of, name, _)| name == entry && of == model) {
+                return Err(KernelError::NoEntryPoint {
+                    path: path.into(),
+                    entry,
+                });
+            }
+        }
+        ALWAYS_NEEDED.iter().try_for_each(|entry| kernel.check(entry))?;
+        Ok(kernel)
+    }
+
+    /// The same of a module that neither renders nor shows anything: for [`super::Gpu::with_probes`].
+    ///
+    /// # Errors
+    /// As [`Kernel::read`].
+    pub fn read_probes(path: &Path) -> Result<Self, KernelError> {
+        Self::open(path).map(|(kernel, _)| kernel)
+    }
+
+    /// Reads a module, whatever is in it.
+    fn open(path: &Path) -> Result<(Self, Module), KernelError> {
         let bytes = read(path)?;
         let words: Vec<u32> = bytes
             .chunks_exact(4)
@@ -69,14 +92,6 @@ impl Kernel {
         }
         let module = load_words(&words).map_err(|error| damaged(error.to_string()))?;
         check_manifest(path, &bytes)?;
-        for (entry, model) in DRAWS {
-            if !entries(&module).any(|(of, name, _)| name == entry && of == model) {
-                return Err(KernelError::NoEntryPoint {
-                    path: path.into(),
-                    entry,
-                });
-            }
-        }
         let entry_points = entries(&module)
             .map(|(model, name, function)| KernelEntryPoint {
                 name: name.into(),
@@ -90,8 +105,7 @@ impl Kernel {
             entry_points,
             path: Some(path.into()),
         };
-        ALWAYS_NEEDED.iter().try_for_each(|entry| kernel.check(entry))?;
-        Ok(kernel)
+        Ok((kernel, module))
     }
 
     /// The file it was read from; none of the one that is part of the program.
