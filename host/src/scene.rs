@@ -140,7 +140,6 @@ impl Scene {
                 })
                 .collect()
         } else {
-            // Materials that ask for either are given neither.
             Vec::new()
         };
         let material_ids: Vec<u32> = if model.material_ids.is_empty() {
@@ -159,13 +158,14 @@ impl Scene {
             radius: bounds.map_or(1.0, |(low, high)| (high - low).length() / 2.0),
         });
         let mut materials = model.materials;
-        let given = match (vertices.is_empty(), has_normals && is_indexed) {
-            (false, _) => SMOOTH_NORMALS | VERTEX_COLORS,
-            (true, true) => SMOOTH_NORMALS,
-            (true, false) => 0,
-        };
+        // Materials that ask for either get what there is.
         for material in &mut materials {
-            material.flags &= given | !(SMOOTH_NORMALS | VERTEX_COLORS);
+            if !has_normals {
+                material.flags &= !SMOOTH_NORMALS;
+            }
+            if !has_colors {
+                material.flags &= !VERTEX_COLORS;
+            }
         }
         let mut lights = model.lights.into_iter();
         let light = lights.next().unwrap_or(Light {
