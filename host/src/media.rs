@@ -2,10 +2,11 @@
 
 use crate::scene::Scene;
 use glam::Vec3;
+use oktant_shared::general::General;
 use oktant_shared::medium::Media;
 use oktant_shared::ray::Ray;
 use oktant_shared::surface::Passage;
-use oktant_shared::traversal::{Standard, Traversal};
+use oktant_shared::traversal::Traversal;
 
 /// A point is inside of what it must leave, whichever of these ways it goes: more than one, because meshes have holes,
 /// and none of them along an edge of a box.
@@ -48,7 +49,8 @@ fn left_on_the_way(scene: &Scene, point: Vec3, way: Vec3) -> Vec<u32> {
     let mut ray = Ray::new(point, way);
     let (mut entered, mut left) = (Vec::new(), Vec::new());
     for _ in 0..MOST_SURFACES {
-        let hit = Standard::closest_hit(&world.scene, &ray);
+        // Whatever structure the scene has.
+        let hit = General::closest_hit(&world.scene, &ray);
         if !hit.is_hit() {
             break;
         }

@@ -1,7 +1,9 @@
 //! A model with the structure that rays are traced through, in the arrays that the kernel reads.
 
+mod memory;
 mod validate;
 
+pub use memory::Memory;
 pub use validate::InvalidModel;
 pub(crate) use validate::validate as validate_model;
 
@@ -11,10 +13,10 @@ use crate::model::{Focus, Model, needs_coordinates, white_light};
 use crate::progress::Progress;
 use crate::structure::{InvalidStructure, Structure, StructureOptions};
 use bytemuck::Zeroable;
-use glam::{UVec4, Vec2, Vec3};
+use glam::{UVec4, Vec2, Vec3, Vec4};
 use oktant_shared::environment::Environment;
 use oktant_shared::light::{AREA, Light};
-use oktant_shared::material::Material;
+use oktant_shared::material::{Material, SMOOTH_NORMALS, VERTEX_COLORS};
 use oktant_shared::octree::Root;
 use oktant_shared::parts::Parts;
 use oktant_shared::plane::Plane;
@@ -35,10 +37,12 @@ pub struct Scene {
     pub root: Root,
     /// The structure's nodes.
     pub nodes: Vec<UVec4>,
-    /// Slots of triangles, leaf by leaf.
+    /// Slots of triangles, leaf by leaf; where triangles are indexed, the vertices of each slot.
     pub references: Vec<u32>,
-    /// The triangles by slot.
+    /// The triangles by slot; none where they are indexed.
     pub triangles: Vec<Triangle>,
+    /// The corners of indexed triangles by vertex, in rows; else none.
+    pub corners: Vec<Vec4>,
     /// The triangles' ids by slot.
     pub ids: Vec<u32>,
     /// Normals and colours by vertex; a single one where the mesh has neither.
@@ -128,7 +132,9 @@ impl Scene {
         let mesh = &model.mesh;
         let has_normals = !mesh.normals.is_empty();
         let has_colors = !mesh.colors.is_empty();
-        let vertices = if has_normals || has_colors {
+        let is_indexed = parts.traversal.is_indexed();
+        // Normals of indexed triangles lie beside their corners.
+        let vertices = if (has_normals && !is_indexed) || has_colors {
             (0..mesh.positions.len())
                 .into_par_iter()
                 .map(|i| Vertex {
@@ -141,7 +147,6 @@ impl Scene {
                 })
                 .collect()
         } else {
-            // Materials that ask for either are given neither.
             Vec::new()
         };
         let material_ids: Vec<u32> = if model.material_ids.is_empty() {
@@ -160,9 +165,13 @@ impl Scene {
             radius: bounds.map_or(1.0, |(low, high)| (high - low).length() / 2.0),
         });
         let mut materials = model.materials;
-        if vertices.is_empty() {
-            for material in &mut materials {
-                material.flags &= !(oktant_shared::material::SMOOTH_NORMALS | oktant_shared::material::VERTEX_COLORS);
+        // Materials that ask for either get what there is.
+        for material in &mut materials {
+            if !has_normals {
+                material.flags &= !SMOOTH_NORMALS;
+            }
+            if !has_colors {
+                material.flags &= !VERTEX_COLORS;
             }
         }
         let mut lights = model.lights.into_iter();
@@ -177,7 +186,16 @@ impl Scene {
             root: structure.root,
             nodes: structure.nodes,
             references: never_empty(structure.references),
-            triangles: never_empty(structure.triangles),
+            triangles: if is_indexed {
+                Vec::new()
+            } else {
+                never_empty(structure.triangles)
+            },
+            corners: if is_indexed {
+                never_empty(structure.corners)
+            } else {
+                Vec::new()
+            },
             ids: never_empty(structure.ids),
             vertices: never_empty(vertices),
             coordinates: never_empty(model.mesh.coordinates),
@@ -219,9 +237,10 @@ impl Scene {
 
     /// Only what looks at no more than the first material does without the material of each triangle.
     fn lay_out_materials(&mut self) {
-        let looks = self.parts != Parts::default() || self.variant.offers() & MATERIALS != 0;
-        if looks && self.material_ids.len() < self.triangles.len() {
-            self.material_ids = vec![0; self.triangles.len()];
+        let is_general = !matches!(self.parts, Parts::STANDARD | Parts::COMPACT);
+        let looks = is_general || self.variant.offers() & MATERIALS != 0;
+        if looks && self.material_ids.len() < self.ids.len() {
+            self.material_ids = vec![0; self.ids.len()];
         }
     }
 
@@ -243,7 +262,7 @@ impl Scene {
     /// Which materials some triangle or plane has.
     fn used_materials(&self) -> Vec<bool> {
         let mut is_used = vec![false; self.materials.len()];
-        if self.material_ids.len() < self.triangles.len() {
+        if self.material_ids.len() < self.ids.len() {
             is_used[0] = true;
         } else {
             for id in &self.material_ids {
@@ -262,9 +281,18 @@ impl Scene {
             root: self.root,
             nodes: &self.nodes,
             references: &self.references,
-            triangles: bytemuck::cast_slice(&self.triangles),
+            triangles: self.rows(),
             ids: &self.ids,
             parts: self.parts.number(),
+        }
+    }
+
+    /// The rows that triangles are made of.
+    pub fn rows(&self) -> &[Vec4] {
+        if self.parts.traversal.is_indexed() {
+            &self.corners
+        } else {
+            bytemuck::cast_slice(&self.triangles)
         }
     }
 
@@ -337,25 +365,6 @@ impl Scene {
     /// Half the diagonal of the bounding box, scene units: the radius of a sphere around it.
     pub fn radius(&self) -> f32 {
         (self.high - self.low).length() / 2.0
-    }
-
-    /// Bytes of the structure without the triangles.
-    pub fn structure_bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice()) + size_of_val(self.references.as_slice()) + size_of_val(self.ids.as_slice())
-    }
-
-    /// Bytes of all arrays.
-    pub fn bytes(&self) -> usize {
-        self.structure_bytes()
-            + size_of_val(self.triangles.as_slice())
-            + size_of_val(self.vertices.as_slice())
-            + size_of_val(self.coordinates.as_slice())
-            + size_of_val(self.material_ids.as_slice())
-            + size_of_val(self.materials.as_slice())
-            + size_of_val(self.lights.as_slice())
-            + size_of_val(self.planes.as_slice())
-            + size_of_val(self.textures.as_slice())
-            + size_of_val(self.texels.as_slice())
     }
 }
 

@@ -82,7 +82,7 @@ pub(crate) fn middles(frame: &Frame) -> Frame {
 /// What makes a scene's surfaces of its hits.
 pub(crate) fn surface_of(scene: &Scene) -> fn(&Frame, &World<'_>, &Ray, &Hit) -> Surface {
     // Of a plain scene no material ids need be there, and nothing bends its normals.
-    if scene.material_ids.len() < scene.triangles.len() {
+    if scene.material_ids.len() < scene.ids.len() {
         Surface::new::<PLAIN>
     } else {
         Surface::new::<EVERYTHING>

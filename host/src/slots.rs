@@ -32,7 +32,7 @@ impl Slots {
     }
 
     /// The triangle of an id that was reported.
-    pub fn triangle<'a>(&self, scene: &'a Scene, id: u32) -> &'a Triangle {
-        &scene.triangles[self.0[id as usize] as usize]
+    pub fn triangle(&self, scene: &Scene, id: u32) -> Triangle {
+        scene.view().triangle(self.0[id as usize])
     }
 }

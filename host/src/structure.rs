@@ -15,8 +15,9 @@ use crate::mesh::Mesh;
 use crate::octree::{Octree, OctreeOptions, root};
 use crate::progress::Progress;
 use crate::tree::{BinaryTree, BuildPreset, CellTree, CollapseOptions, MortonOrder, WideNode, zeroed};
-use glam::{UVec3, UVec4, Vec3, uvec4};
+use glam::{UVec3, UVec4, Vec3, Vec4, uvec4};
 use oktant_shared::grid::Raster;
+use oktant_shared::octahedral;
 use oktant_shared::octree::{Node, Root};
 use oktant_shared::parts::{Parts, TraversalKind};
 use oktant_shared::triangle::Triangle;
@@ -57,10 +58,14 @@ pub struct Structure {
     pub root: Root,
     /// The nodes, as the traversal reads them.
     pub nodes: Vec<UVec4>,
-    /// Slots of triangles, leaf by leaf; empty where each triangle is in one leaf.
+    /// Slots of triangles, leaf by leaf; empty where each triangle is in one leaf. Where triangles are indexed, the corners
+    /// of each slot.
     pub references: Vec<u32>,
-    /// The triangles by slot. Those that no ray is to hit, for they lie exactly on one with a lower id, have no area.
+    /// The triangles by slot; empty where they are indexed. Those that no ray is to hit, for they lie exactly on one with a
+    /// lower id, have no area.
     pub triangles: Vec<Triangle>,
+    /// The corners of indexed triangles by vertex, scene units, and their normals as words, in rows; else empty.
+    pub corners: Vec<Vec4>,
     /// The triangles' ids by slot.
     pub ids: Vec<u32>,
     /// Triangles left out because they have no area.
@@ -87,13 +92,16 @@ impl Structure {
                     nodes: in_pairs(&octree.nodes),
                     references: octree.references,
                     triangles: rows(mesh, &ids),
+                    corners: Vec::new(),
                     ids,
                     degenerate: octree.degenerate,
                     duplicates: octree.duplicates,
                     bounds: None,
                 })
             }
-            TraversalKind::Octants | TraversalKind::Bvh2 => Self::of_boxes(mesh, options, progress),
+            TraversalKind::Octants | TraversalKind::Compact | TraversalKind::Bvh2 => {
+                Self::of_boxes(mesh, options, progress)
+            }
             TraversalKind::Grid => {
                 let grid = Grid::build(mesh, &options.grid, progress)?;
                 let mut nodes = grid.raster.words().to_vec();
@@ -104,6 +112,7 @@ impl Structure {
                     nodes,
                     references: grid.references,
                     triangles: rows(mesh, &grid.ids),
+                    corners: Vec::new(),
                     ids: grid.ids,
                     degenerate: grid.degenerate,
                     duplicates: grid.duplicates,
@@ -118,6 +127,7 @@ impl Structure {
                     nodes: vec![uvec4(hittable.ids.len() as u32, 0, 0, 0)],
                     references: Vec::new(),
                     triangles: rows(mesh, &hittable.ids),
+                    corners: Vec::new(),
                     ids: hittable.ids,
                     degenerate: hittable.degenerate,
                     duplicates: hittable.duplicates,
@@ -135,9 +145,17 @@ impl Structure {
         let cube = root(low, high, 0)?;
         let margin = octants::margin(&cube);
         let encode = |node: &WideNode| octants::words(node, margin);
+        // None yet where they are indexed.
+        let rows = |ids: &[u32]| {
+            if traversal.is_indexed() {
+                Vec::new()
+            } else {
+                rows(mesh, ids)
+            }
+        };
         let (nodes, ids, mut triangles) = if traversal == TraversalKind::Bvh2 {
             let tree = BinaryTree::of(&order, mesh, options.preset, progress);
-            let triangles = rows(mesh, &tree.order);
+            let triangles = rows(&tree.order);
             (bvh2::words(&tree), tree.order, triangles)
         } else if options.preset == BuildPreset::Fast {
             let cells = CellTree::build(&order, mesh, encode, octants::move_children, progress);
@@ -145,7 +163,7 @@ impl Structure {
         } else {
             let tree = BinaryTree::of(&order, mesh, options.preset, progress);
             let wide = tree.to_wide(&CollapseOptions::of(options.preset), encode);
-            let triangles = rows(mesh, &wide.order);
+            let triangles = rows(&wide.order);
             (bytemuck::allocation::cast_vec(wide.nodes), wide.order, triangles)
         };
         let duplicates = order.duplicates(mesh);
@@ -159,6 +177,12 @@ impl Structure {
                 }
             });
         }
+        let (mut references, mut corners) = (Vec::new(), Vec::new());
+        if traversal.is_indexed() {
+            triangles = Vec::new();
+            references = indices(mesh, &ids, &duplicates);
+            corners = self::corners(mesh);
+        }
         // As much room as the octree's cube has: for rays from so far away that f32 does not tell where they pass.
         let room = Vec3::splat((high - low).max_element() / 64.0);
         Ok(Structure {
@@ -169,8 +193,9 @@ impl Structure {
                 ..cube
             },
             nodes,
-            references: Vec::new(),
+            references,
             triangles,
+            corners,
             ids,
             degenerate: order.degenerate,
             duplicates: duplicates.len() as u32,
@@ -181,7 +206,7 @@ impl Structure {
     /// A structure without triangles.
     pub fn empty(traversal: TraversalKind) -> Self {
         let words = match traversal {
-            TraversalKind::Octants => oktant_shared::octants::NODE_VECTORS,
+            TraversalKind::Octants | TraversalKind::Compact => oktant_shared::octants::NODE_VECTORS,
             TraversalKind::Octree | TraversalKind::Brute => 1,
             TraversalKind::Bvh2 => oktant_shared::bvh2::NODE_VECTORS,
             TraversalKind::Grid => 3,
@@ -206,6 +231,7 @@ impl Structure {
             nodes,
             references: Vec::new(),
             triangles: Vec::new(),
+            corners: Vec::new(),
             ids: Vec::new(),
             degenerate: 0,
             duplicates: 0,
@@ -223,6 +249,27 @@ fn rows(mesh: &Mesh, ids: &[u32]) -> Vec<Triangle> {
     let pairs = triangles.par_iter_mut().zip(ids).with_min_len(ROWS);
     pairs.for_each(|(triangle, id)| *triangle = mesh.triangle(*id));
     triangles
+}
+
+/// The vertices of the triangles of some ids, three each; of duplicates the first one three times.
+fn indices(mesh: &Mesh, ids: &[u32], duplicates: &[u32]) -> Vec<u32> {
+    let mut indices: Vec<u32> = zeroed(3 * ids.len());
+    let pairs = indices.par_chunks_exact_mut(3).zip(ids).with_min_len(ROWS);
+    pairs.for_each(|(indices, id)| {
+        let corners = mesh.triangles[*id as usize];
+        let is_left_out = !duplicates.is_empty() && duplicates.binary_search(id).is_ok();
+        indices.copy_from_slice(&if is_left_out { [corners[0]; 3] } else { corners });
+    });
+    indices
+}
+
+/// The vertices of a mesh in rows: where they are, and their normals as words.
+fn corners(mesh: &Mesh) -> Vec<Vec4> {
+    let row = |(index, position): (usize, &Vec3)| {
+        let normal = mesh.normals.get(index).copied().unwrap_or_default();
+        position.extend(f32::from_bits(octahedral::word(normal)))
+    };
+    mesh.positions.par_iter().enumerate().map(row).collect()
 }
 
 /// Nodes two by two in words; an odd one is followed by an empty leaf.

@@ -168,7 +168,7 @@ impl Trace {
         let advance = if prepared.valid { advance } else { 0.0 };
         let tested = |slot: &u32| {
             let id = scene.ids[*slot as usize];
-            let triangle = &scene.triangles[*slot as usize];
+            let triangle = &scene.view().triangle(*slot);
             Tested {
                 triangle: id,
                 corners: [triangle.a, triangle.b, triangle.c].map(|corner| corner.to_array()),

@@ -2,18 +2,17 @@
 //!
 //! An entry point guards against invocations beyond the end of its buffers, calls a function of `oktant-shared` and
 //! stores the result. Descriptor set 0 holds what rays meet, set 1 the frame, set 2 what is read and
-//! written per invocation, set 3 what surfaces look like. Memory of the workgroup is used by `brute` alone, where it casts.
+//! written per invocation, set 3 what surfaces look like. All that is only for other parts than the default ones is in the
+//! module of `kernel/parts`.
 #![cfg_attr(target_arch = "spirv", no_std)]
 #![expect(
     clippy::too_many_arguments,
     reason = "each buffer and each built-in of an entry point is an argument of its own"
 )]
 
-#[macro_use]
-mod cast;
 pub mod choose;
 pub mod present;
 pub mod probe;
 pub mod render;
 
-oktant_shared::offered_parts!(cast_all);
+oktant_shared::offered_parts!(oktant_shared::cast_standard);

@@ -39,7 +39,12 @@ impl Walk for AnyWalk {
 
     fn new(scene: &Scene<'_>, entered: &Entered) -> Self {
         AnyWalk {
-            kind: scene.parts & 7,
+            // The same way.
+            kind: if scene.parts & 7 == TraversalKind::Compact as u32 {
+                TraversalKind::Octants as u32
+            } else {
+                scene.parts & 7
+            },
             octants: octants::Walk::new(scene, entered),
             octree: revelles::Walk::new(scene, entered),
             bvh2: bvh2::Walk::new(scene, entered),
@@ -170,6 +175,11 @@ impl TriangleTest for AnyTriangle {
     #[inline(always)]
     fn crossing(&self, triangle: &Triangle) -> Crossing {
         crossing(self.kind, self.ray, *triangle)
+    }
+
+    #[inline(always)]
+    fn crossing_at(&self, scene: &Scene<'_>, slot: u32) -> Crossing {
+        self.crossing(&scene.triangle(slot))
     }
 }
 

@@ -8,6 +8,7 @@ use crate::box_test::{BoxTest, KayKajiya};
 use crate::buffer::{Stack, load};
 use crate::entered::Entered;
 use crate::hit::Hit;
+use crate::parts::TraversalKind;
 use crate::ray::Ray;
 use crate::scene::Scene;
 use crate::slabs::Slabs;
@@ -56,6 +57,15 @@ pub const MARGIN: f32 = 1.0 / (1 << 21) as f32;
 pub struct Octants<T, const LANES: bool = true>(PhantomData<T>);
 
 impl<T: TriangleTest, const LANES: bool> Traversal for Octants<T, LANES> {
+    #[inline(always)]
+    fn parts(_: u32) -> u32 {
+        if T::IS_INDEXED {
+            TraversalKind::Compact as u32
+        } else {
+            TraversalKind::Octants as u32
+        }
+    }
+
     #[inline(always)]
     fn closest_hit(scene: &Scene<'_>, ray: &Ray) -> Hit {
         #[cfg(target_arch = "x86_64")]

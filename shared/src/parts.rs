@@ -85,6 +85,10 @@ kinds! {
     Brute {
         "brute", "none", "no nodes; all triangles, cast on the GPU in tiles of 64", true
     }
+    /// [`crate::octants::Octants`] with [`crate::triangle_test::Indexed`] triangles.
+    Compact {
+        "compact", "Ylitie, Karras, Laine 2017", "as octants; a triangle is 12 bytes, its corners are looked up", true
+    }
 }
 
 kinds! {
@@ -137,11 +141,32 @@ pub struct Parts {
 impl TraversalKind {
     /// Whether it leaves the box test open; else it has one of its own, or tests no boxes.
     pub fn takes_box_test(self) -> bool {
-        !matches!(self, TraversalKind::Octants | TraversalKind::Brute)
+        !matches!(
+            self,
+            TraversalKind::Octants | TraversalKind::Brute | TraversalKind::Compact
+        )
+    }
+
+    /// Whether its triangles are three indices each, of corners that they share.
+    pub const fn is_indexed(self) -> bool {
+        matches!(self, TraversalKind::Compact)
     }
 }
 
 impl Parts {
+    /// What pictures are rendered with unless told otherwise: [`crate::traversal::Standard`].
+    pub const STANDARD: Parts = Parts {
+        traversal: TraversalKind::Octants,
+        triangle: TriangleKind::Watertight,
+        box_test: BoxKind::KayKajiya,
+    };
+
+    /// The same in less memory: [`crate::traversal::Compact`].
+    pub const COMPACT: Parts = Parts {
+        traversal: TraversalKind::Compact,
+        ..Parts::STANDARD
+    };
+
     /// Whether this combination is in [`Parts::OFFERED`].
     pub fn is_offered(self) -> bool {
         self.entry_points().is_some()
@@ -164,12 +189,12 @@ impl fmt::Display for Parts {
     }
 }
 
-/// Hands the list of all combinations that are offered to a macro: kinds of traversal, triangle test and box test, then
+/// Hands the list of all combinations that are offered to a macro, the default one first: kinds of traversal, triangle test and box test, then
 /// the entry points for closest hits and any hits, then the type that has the traversal.
 #[macro_export]
 macro_rules! offered_parts {
-    ($macro:ident) => {
-        $macro! {
+    ($($macro:ident)::+) => {
+        $($macro)::+! {
             Octants Watertight KayKajiya closest_octants_watertight any_octants_watertight
                 $crate::octants::Octants<$crate::triangle_test::Watertight>;
             Octants MollerTrumbore KayKajiya closest_octants_moller_trumbore any_octants_moller_trumbore
@@ -188,10 +213,10 @@ macro_rules! offered_parts {
                 $crate::bvh2::Bvh2<$crate::box_test::Williams, $crate::triangle_test::Watertight>;
             Grid Watertight KayKajiya closest_grid_watertight_kay_kajiya any_grid_watertight_kay_kajiya
                 $crate::grid::Grid<$crate::box_test::KayKajiya, $crate::triangle_test::Watertight>;
-            Grid Watertight Williams closest_grid_watertight_williams any_grid_watertight_williams
-                $crate::grid::Grid<$crate::box_test::Williams, $crate::triangle_test::Watertight>;
             Brute Watertight KayKajiya closest_brute_watertight any_brute_watertight
                 $crate::brute::Brute<$crate::triangle_test::Watertight>;
+            Compact Watertight KayKajiya closest_compact_watertight any_compact_watertight
+                $crate::octants::Octants<$crate::triangle_test::Indexed<$crate::triangle_test::Watertight>>;
         }
     };
 }

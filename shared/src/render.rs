@@ -8,7 +8,7 @@ use crate::medium::Media;
 use crate::plane::PLANE;
 use crate::ray::Ray;
 use crate::sampling::{Batch, sample};
-use crate::scene::World;
+use crate::scene::{Scene, World};
 use crate::shading::{Viewer, shade};
 use crate::stereo::EyeView;
 use crate::surface::Surface;
@@ -50,6 +50,13 @@ pub fn render_pixel<V: Traversal, const NEEDS: u32>(
     pixel: UVec2,
     batch: &Batch,
 ) -> Pixel {
+    let world = &World {
+        scene: Scene {
+            parts: V::parts(world.scene.parts),
+            ..world.scene
+        },
+        ..*world
+    };
     let mut result = Pixel {
         sum: Vec4::ZERO,
         work: Vec4::ZERO,

@@ -4,10 +4,12 @@ use crate::buffer::load;
 use crate::hit::Hit;
 use crate::light::Light;
 use crate::material::Material;
+use crate::octahedral;
 use crate::octree::Root;
+use crate::parts::TraversalKind;
 use crate::plane::Plane;
 use crate::texture::Texture;
-use crate::triangle::Vertex;
+use crate::triangle::{Triangle, Vertex};
 use glam::{UVec4, Vec2, Vec4};
 
 /// What a traversal reads; on the GPU each array is a storage buffer.
@@ -19,9 +21,11 @@ pub struct Scene<'a> {
     pub root: Root,
     /// The structure's nodes, as its traversal reads them.
     pub nodes: &'a [UVec4],
-    /// Slots of triangles, leaf by leaf, where a structure refers to a triangle more than once.
+    /// Slots of triangles, leaf by leaf, where a structure refers to a triangle more than once; where triangles are indexed,
+    /// the three corners of each slot.
     pub references: &'a [u32],
-    /// The triangles by slot, in rows (see [`crate::triangle::Triangle::at`]).
+    /// The triangles by slot, in rows (see [`Triangle::at`]); where they are indexed, the vertices (see
+    /// [`Triangle::indexed`]).
     pub triangles: &'a [Vec4],
     /// The triangles' ids by slot.
     pub ids: &'a [u32],
@@ -30,6 +34,22 @@ pub struct Scene<'a> {
 }
 
 impl Scene<'_> {
+    /// Whether triangles are three indices each, see [`TraversalKind::is_indexed`].
+    #[inline(always)]
+    pub fn is_indexed(&self) -> bool {
+        self.parts & 7 == TraversalKind::Compact as u32
+    }
+
+    /// The triangle at a slot, however triangles are stored for the parts.
+    #[inline(always)]
+    pub fn triangle(&self, slot: u32) -> Triangle {
+        if self.is_indexed() {
+            Triangle::indexed(self.references, self.triangles, slot)
+        } else {
+            Triangle::at(self.triangles, slot)
+        }
+    }
+
     /// A hit with the triangle's id in place of its slot; misses stay.
     #[inline]
     pub fn identified(&self, hit: Hit) -> Hit {
@@ -47,7 +67,7 @@ impl Scene<'_> {
 /// What shading reads. On the GPU no array is empty; how many lights and planes there are, says the frame.
 #[derive(Clone, Copy)]
 pub struct Appearance<'a> {
-    /// What the triangles' corners carry.
+    /// What the triangles' corners carry; where triangles are indexed, of use for the colours alone.
     pub vertices: &'a [Vertex],
     /// Texture coordinates by vertex; a single one where no mesh has any.
     pub coordinates: &'a [Vec2],
@@ -72,4 +92,22 @@ pub struct World<'a> {
     pub scene: Scene<'a>,
     /// What it looks like.
     pub appearance: Appearance<'a>,
+}
+
+impl World<'_> {
+    /// What a vertex carries; its colour only if it is asked for.
+    #[inline(always)]
+    pub fn vertex(&self, index: u32, with_color: bool) -> Vertex {
+        if !self.scene.is_indexed() {
+            return load(self.appearance.vertices, index);
+        }
+        Vertex {
+            normal: octahedral::direction(load(self.scene.triangles, index).w.to_bits()),
+            color: if with_color {
+                load(self.appearance.vertices, index).color
+            } else {
+                u32::MAX
+            },
+        }
+    }
 }

@@ -89,7 +89,7 @@ impl Passage {
                 material_id: plane.material,
             }
         } else {
-            let triangle = Triangle::at(world.scene.triangles, hit.triangle);
+            let triangle = world.scene.triangle(hit.triangle);
             let face = faced(&triangle, ray);
             let (point, clearance) = surface_point(&triangle, hit, face);
             let from_front = face.dot(ray.direction) <= 0.0;
@@ -145,7 +145,7 @@ fn faced(triangle: &Triangle, ray: &Ray) -> Vec3 {
 
 fn on_triangle<const NEEDS: u32>(frame: &Frame, world: &World<'_>, ray: &Ray, hit: &Hit, view: Vec3) -> Surface {
     let appearance = &world.appearance;
-    let triangle = Triangle::at(world.scene.triangles, hit.triangle);
+    let triangle = world.scene.triangle(hit.triangle);
     let material_id = if NEEDS & MATERIALS != 0 {
         load(appearance.material_ids, hit.triangle)
     } else {
@@ -165,9 +165,9 @@ fn on_triangle<const NEEDS: u32>(frame: &Frame, world: &World<'_>, ray: &Ray, hi
     let mut base = material.base;
     if smooth || colored {
         let corners = [
-            load(appearance.vertices, triangle.vertex_a),
-            load(appearance.vertices, triangle.vertex_b),
-            load(appearance.vertices, triangle.vertex_c),
+            world.vertex(triangle.vertex_a, colored),
+            world.vertex(triangle.vertex_b, colored),
+            world.vertex(triangle.vertex_c, colored),
         ];
         if smooth {
             front = interpolated_normal(&corners, hit, face);

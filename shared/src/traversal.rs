@@ -4,13 +4,19 @@ use crate::hit::Hit;
 use crate::octants::Octants;
 use crate::ray::Ray;
 use crate::scene::Scene;
-use crate::triangle_test::Watertight;
+use crate::triangle_test::{Indexed, Watertight};
 
 /// A way to find a ray's hits among all triangles of a scene.
 pub trait Traversal {
     /// Whether shadow rays through scenes without transparency ask for any hit. Those that do not ask for the closest one,
     /// as others do: the traversal is in the kernel once less.
     const SHADOWS_APART: bool = true;
+
+    /// What [`Scene::parts`] is: as given, or a constant where it is known beforehand, so that no branch is compiled that asks.
+    #[inline(always)]
+    fn parts(given: u32) -> u32 {
+        given
+    }
 
     /// The hit with the smallest `t` within the ray's limits, of equal ones the triangle with the lowest id, as the triangle
     /// test computes it: of triangles in one plane, rounding may put any a little in front. A box or cell may be left out
@@ -60,3 +66,6 @@ pub(crate) fn any_hits_in_turn<V: Traversal + ?Sized>(scene: &Scene<'_>, rays: &
 
 /// The combination that oktant renders with.
 pub type Standard = Octants<Watertight>;
+
+/// The same over triangles that share their corners: fewer bytes, slower.
+pub type Compact = Octants<Indexed<Watertight>>;

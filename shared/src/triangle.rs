@@ -46,6 +46,24 @@ impl Triangle {
         Self::of_rows(load(rows, 3 * slot), load(rows, 3 * slot + 1), load(rows, 3 * slot + 2))
     }
 
+    /// The triangle at a slot of those that are three indices each, of rows that hold a corner and its normal as a
+    /// word (see [`crate::octahedral`]).
+    #[inline(always)]
+    pub fn indexed(corners: &[u32], rows: &[Vec4], slot: u32) -> Self {
+        let vertex_a = load(corners, 3 * slot);
+        let vertex_b = load(corners, 3 * slot + 1);
+        let vertex_c = load(corners, 3 * slot + 2);
+        let (a, b, c) = (load(rows, vertex_a), load(rows, vertex_b), load(rows, vertex_c));
+        Triangle {
+            a: Vec3::new(a.x, a.y, a.z),
+            vertex_a,
+            b: Vec3::new(b.x, b.y, b.z),
+            vertex_b,
+            c: Vec3::new(c.x, c.y, c.z),
+            vertex_c,
+        }
+    }
+
     /// The triangle of three rows.
     #[inline(always)]
     pub fn of_rows(a: Vec4, b: Vec4, c: Vec4) -> Self {

@@ -1,11 +1,13 @@
 //! Ray against triangle: the interface, and one file for each test.
 
 mod baldwin_weber;
+mod indexed;
 mod moller_trumbore;
 mod plucker;
 mod watertight;
 
 pub use baldwin_weber::{BaldwinWeber, TriangleTransform};
+pub use indexed::Indexed;
 pub use moller_trumbore::MollerTrumbore;
 pub use plucker::Plucker;
 pub use watertight::Watertight;
@@ -13,6 +15,8 @@ pub use watertight::Watertight;
 use crate::ray::PreparedRay;
 use crate::scene::Scene;
 use crate::triangle::Triangle;
+#[cfg(target_arch = "x86_64")]
+use glam::Vec4;
 
 /// What a triangle test finds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +59,9 @@ pub struct Crossings {
 /// A triangle without area and a line in the triangle's plane do not cross. The limits of the ray's `t` are the
 /// traversal's business.
 pub trait TriangleTest: Copy {
+    /// Whether it takes triangles of a scene for three indices each.
+    const IS_INDEXED: bool = false;
+
     /// Does the work that is done once for each ray.
     fn prepare(ray: &PreparedRay) -> Self;
 
@@ -80,15 +87,53 @@ pub trait TriangleTest: Copy {
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     unsafe fn crossings_at(&self, scene: &Scene<'_>, slots: [u32; 4], count: u32) -> Crossings {
+        // SAFETY: the caller's.
+        unsafe {
+            let [a, b, c, d] = slots;
+            let corners = [rows(scene, a), rows(scene, b), rows(scene, c), rows(scene, d)];
+            self.crossings_of(corners, count)
+        }
+    }
+
+    /// How many slots a scene has.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn slots(scene: &Scene<'_>) -> usize {
+        scene.triangles.len() / 3
+    }
+
+    /// The same of the first `count` of four triangles, of each of which is said where the rows of its corners lie.
+    ///
+    /// # Safety
+    /// The processor has AVX2, and there are rows at all twelve places.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    unsafe fn crossings_of(&self, corners: [[*const Vec4; 3]; 4], count: u32) -> Crossings {
         let mut crossings = Crossings::default();
-        for (lane, slot) in slots.into_iter().enumerate().take(count as usize) {
-            let crossing = self.crossing_at(scene, slot);
+        for (lane, [a, b, c]) in corners.into_iter().enumerate().take(count as usize) {
+            // SAFETY: the caller's.
+            let triangle = unsafe { Triangle::of_rows(*a, *b, *c) };
+            let crossing = self.crossing(&triangle);
             crossings.crosses |= u32::from(crossing.crosses) << lane;
             crossings.t[lane] = crossing.t;
             crossings.u[lane] = crossing.u;
             crossings.v[lane] = crossing.v;
         }
         crossings
+    }
+}
+
+/// Where the rows of a slot's triangle lie.
+///
+/// # Safety
+/// The slot is in range.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+unsafe fn rows(scene: &Scene<'_>, slot: u32) -> [*const Vec4; 3] {
+    // SAFETY: the caller's; each slot has three rows.
+    unsafe {
+        let first = scene.triangles.as_ptr().add(3 * slot as usize);
+        [first, first.add(1), first.add(2)]
     }
 }
 

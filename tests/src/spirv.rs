@@ -25,7 +25,19 @@ impl CompiledKernel {
     /// # Panics
     /// Where it is not in the repository.
     pub fn committed() -> Self {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../kernel/compiled");
+        Self::of("compiled")
+    }
+
+    /// The one for other parts than the default ones, which belongs into the folder `parts`.
+    ///
+    /// # Panics
+    /// Where it is not in the repository.
+    pub fn parts() -> Self {
+        Self::of("compiled/parts")
+    }
+
+    fn of(folder: &str) -> Self {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../kernel").join(folder);
         let manifest = Manifest::read(&folder.join(MANIFEST_FILE)).expect("the kernel has a manifest");
         let bytes = fs::read(folder.join(&manifest.file)).expect("the kernel is there");
         let words = bytes.chunks_exact(4).map(|word| {

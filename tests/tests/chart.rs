@@ -198,6 +198,7 @@ fn charts_are_measured_and_drawn_again() {
         "range-tests",
         "range-traversals",
         "octree-balls",
+        "memory",
         "growth",
         "image-error-rmse",
         "image-error-flip",
@@ -487,7 +488,7 @@ fn what_is_wrong_is_told() {
         (
             &["-o", "x", "accuracy", "image-error", "a.toml"],
             2,
-            "accuracy and octree are of meshes; name one, e.g. bunny, beside the scene.",
+            "accuracy, octree and memory are of meshes; name one, e.g. bunny, beside the scene.",
         ),
         // Before anything is measured.
         (&["-o", "x", "growth", "balls", "other.csv"], 1, "other.csv"),

@@ -264,6 +264,8 @@ fn info_has_the_figures() {
         "per triangle",
         "leaves ",
         "bytes ",
+        "arrays       bytes per triangle: nodes 13.7, references 0.0",
+        "triangles 48.0, ids 4.0, normals 6.0, colours 2.0, coordinates 0.0",
         "ms to build",
         "entry points",
         "adapter ",

@@ -15,8 +15,15 @@ fn workspace() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-fn committed() -> (Manifest, Vec<u8>) {
-    let dir = workspace().join("kernel/compiled");
+/// The crates that are compiled to SPIR-V, and where.
+const CRATES: [[&str; 2]; 3] = [
+    ["kernel", "kernel/compiled"],
+    ["kernel/parts", "kernel/compiled/parts"],
+    ["kernel/probes", "kernel/compiled/probes"],
+];
+
+fn committed(folder: &str) -> (Manifest, Vec<u8>) {
+    let dir = workspace().join(folder);
     let manifest = Manifest::read(&dir.join(MANIFEST_FILE)).unwrap_or_else(|error| panic!("{error}"));
     let module = fs::read(dir.join(&manifest.file)).unwrap();
     (manifest, module)
@@ -24,23 +31,29 @@ fn committed() -> (Manifest, Vec<u8>) {
 
 #[test]
 fn module_belongs_to_its_sources() {
-    let (manifest, _) = committed();
-    manifest
-        .check_sources(&workspace().join("kernel"))
-        .unwrap_or_else(|error| panic!("{error}"));
+    for [kernel, folder] in CRATES {
+        let (manifest, _) = committed(folder);
+        manifest
+            .check_sources(&workspace().join(kernel))
+            .unwrap_or_else(|error| panic!("{kernel}: {error}"));
+    }
 }
 
 #[test]
 fn manifest_describes_the_module() {
-    let (manifest, module) = committed();
-    assert_eq!(manifest.sha256, sha256(&module));
-    manifest.check_module(&module).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(manifest.bindings, oktant_shared::bindings::BINDINGS);
+    for [kernel, folder] in CRATES {
+        let (manifest, module) = committed(folder);
+        assert_eq!(manifest.sha256, sha256(&module));
+        manifest
+            .check_module(&module)
+            .unwrap_or_else(|error| panic!("{kernel}: {error}"));
+        assert_eq!(manifest.bindings, oktant_shared::bindings::BINDINGS);
+    }
 }
 
 #[test]
 fn manifest_notices_another_module() {
-    let (manifest, module) = committed();
+    let (manifest, module) = committed("kernel/compiled");
     for at in [0, module.len() / 2, module.len() - 1] {
         let mut other = module.clone();
         other[at] ^= 1;
@@ -54,8 +67,12 @@ fn manifest_notices_another_module() {
 }
 
 #[test]
-fn naga_accepts_the_module() {
-    let (manifest, module) = committed();
+fn naga_accepts_the_modules() {
+    CRATES.into_iter().for_each(|[_, folder]| naga_accepts(folder));
+}
+
+fn naga_accepts(folder: &str) {
+    let (manifest, module) = committed(folder);
     // As wgpu sets them where the device has no optional feature.
     let options = spv::Options {
         adjust_coordinate_space: false,
@@ -88,11 +105,22 @@ fn naga_accepts_the_module() {
 }
 
 #[test]
-fn module_names_no_folder_of_the_machine_that_compiled_it() {
-    let (_, module) = committed();
-    for part in ["/src/", "/home/", "/root/", ".cargo"] {
-        let found = module.windows(part.len()).any(|bytes| bytes == part.as_bytes());
-        assert!(!found, "the module contains {part:?}");
+fn modules_name_no_folder_of_the_machine_that_compiled_them() {
+    for [kernel, folder] in CRATES {
+        let (_, module) = committed(folder);
+        for part in ["/src/", "/home/", "/root/", ".cargo"] {
+            let found = module.windows(part.len()).any(|bytes| bytes == part.as_bytes());
+            assert!(!found, "the module of {kernel} contains {part:?}");
+        }
+    }
+}
+
+/// A driver reads a module before it makes a pipeline.
+#[test]
+fn modules_are_below_a_megabyte() {
+    for [kernel, folder] in CRATES {
+        let (_, module) = committed(folder);
+        assert!(module.len() < 1_000_000, "{kernel}: {} bytes", module.len());
     }
 }
 
@@ -118,7 +146,7 @@ fn a_missing_manifest_is_told_with_the_command_that_writes_it() {
 
 #[test]
 fn writing_leaves_the_two_files_and_nothing_else() {
-    let (manifest, module) = committed();
+    let (manifest, module) = committed("kernel/compiled");
     let dir = TempDir::new().unwrap();
     let out = dir.path().join("new/folder");
     // The second time finds both files there.

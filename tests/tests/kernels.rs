@@ -215,9 +215,8 @@ fn what_naga_does_not_understand_is_told() {
 #[ignore = "needs a Vulkan driver"]
 fn what_is_cast_with_must_be_there() {
     let folder = tempdir().unwrap();
-    let good = CompiledKernel::committed();
-    good.renamed("closest_octants_plucker", "closest_octants_x")
-        .write(folder.path());
+    CompiledKernel::committed().write(folder.path());
+    let parts = folder.path().join("parts");
     // Two rays: origin, t_min, direction, t_max.
     let numbers = [0.0_f32, 0.0, 9.0, 0.0, 0.0, 0.0, -1.0, 100.0].repeat(2);
     let mut rays = b"PRAY".to_vec();
@@ -239,11 +238,26 @@ fn what_is_cast_with_must_be_there() {
         ];
         run(folder.path(), arguments.into_iter().chain([more]))
     };
-    let run = cast("--triangle=watertight");
-    assert_eq!(run.code, Some(0), "{}", run.error);
-    assert_refused(
-        &cast("--triangle=plucker"),
-        1,
-        &["no entry point `closest_octants_plucker`"],
-    );
+    let succeeds = |more: &str| {
+        let run = cast(more);
+        assert_eq!(run.code, Some(0), "{}", run.error);
+    };
+    let missing = || {
+        assert_refused(
+            &cast("--triangle=plucker"),
+            1,
+            &["no entry point `closest_octants_plucker`"],
+        );
+    };
+    succeeds("--triangle=watertight");
+    missing();
+    let good = CompiledKernel::parts();
+    good.write(&parts);
+    succeeds("--triangle=plucker");
+    good.renamed("closest_octants_plucker", "closest_octants_x")
+        .write(&parts);
+    succeeds("--triangle=watertight");
+    missing();
+    fs::write(parts.join("oktant.spv"), "no module").unwrap();
+    assert_refused(&cast("--triangle=watertight"), 1, &["parts", "not a SPIR-V module"]);
 }

@@ -7,8 +7,8 @@ use oktant_shared::octants::{NODE_VECTORS, Octants};
 use oktant_shared::parts::TraversalKind;
 use oktant_shared::ray::{Ray, T_MAX};
 use oktant_shared::scene::Scene;
-use oktant_shared::traversal::Traversal;
-use oktant_shared::triangle_test::{BaldwinWeber, MollerTrumbore, Plucker, TriangleTest, Watertight};
+use oktant_shared::traversal::{Compact, Standard, Traversal};
+use oktant_shared::triangle_test::{BaldwinWeber, Indexed, MollerTrumbore, Plucker, TriangleTest, Watertight};
 use oktant_tests::ray_classes::RayClass;
 use oktant_tests::subject::Subject;
 use rayon::prelude::*;
@@ -126,19 +126,47 @@ fn plucker_hits_are_the_same() {
     compare::<Plucker>("plucker");
 }
 
+/// Triangles that share their corners are found as those that have their own, bit for bit.
+#[test]
+fn indexed_triangles_are_hit_the_same() {
+    for subject in Subject::all() {
+        let (own, shared) = (
+            subject.scene(TraversalKind::Octants),
+            subject.scene(TraversalKind::Compact),
+        );
+        assert!(own.nodes == shared.nodes && own.ids == shared.ids, "{}", subject.name);
+        let (own, shared) = (own.view(), shared.view());
+        let mut found = 0;
+        for class in RayClass::ALL {
+            let mut rays = subject.rays(class, RAYS);
+            rays.extend(subject.limited(&rays[..RAYS / 4]));
+            let what = format!("indexed, {}, class {}", subject.name, class.name());
+            found += compare_all::<Indexed<Watertight>>(&shared, &rays, &what);
+            let (a, b) = (
+                answers_at_once::<Octants<Watertight>>(&own, &rays),
+                answers_at_once::<Octants<Indexed<Watertight>>>(&shared, &rays),
+            );
+            for ((ray, a), b) in rays.iter().zip(&a).zip(&b) {
+                assert_eq!(a, b, "{what}: {ray:?}");
+            }
+        }
+        assert!(found > 0, "{}: no ray hits anything", subject.name);
+    }
+}
+
 /// Rays at a scene whose arrays end too early.
-fn cut(cut: impl for<'a> Fn(Scene<'a>) -> Scene<'a>) {
+fn cut<V: Traversal>(traversal: TraversalKind, cut: impl for<'a> Fn(Scene<'a>) -> Scene<'a>) {
     let subject = &Subject::all()[0];
-    let scene = subject.scene(TraversalKind::Octants);
+    let scene = subject.scene(traversal);
     for ray in subject.rays(RayClass::ALL[0], 1000) {
-        Octants::<Watertight>::closest_hit(&cut(scene.view()), &ray);
+        V::closest_hit(&cut(scene.view()), &ray);
     }
 }
 
 #[test]
 #[should_panic = "there is no such node"]
 fn nodes_that_are_not_there_are_not_read() {
-    cut(|scene| Scene {
+    cut::<Standard>(TraversalKind::Octants, |scene| Scene {
         nodes: &scene.nodes[..NODE_VECTORS as usize],
         ..scene
     });
@@ -147,8 +175,26 @@ fn nodes_that_are_not_there_are_not_read() {
 #[test]
 #[should_panic = "there is no such triangle"]
 fn triangles_that_are_not_there_are_not_read() {
-    cut(|scene| Scene {
+    cut::<Standard>(TraversalKind::Octants, |scene| Scene {
         triangles: &scene.triangles[..3],
+        ..scene
+    });
+}
+
+#[test]
+#[should_panic = "there is no such triangle"]
+fn indices_that_are_not_there_are_not_read() {
+    cut::<Compact>(TraversalKind::Compact, |scene| Scene {
+        references: &scene.references[..3],
+        ..scene
+    });
+}
+
+#[test]
+#[should_panic = "there is no such vertex"]
+fn corners_that_are_not_there_are_not_read() {
+    cut::<Compact>(TraversalKind::Compact, |scene| Scene {
+        triangles: &scene.triangles[..1],
         ..scene
     });
 }

@@ -6,11 +6,17 @@
 use oktant::backend::cpu::Cpu;
 use oktant::backend::gpu::{Gpu, GpuBackend, GpuOptions};
 use oktant::backend::{Backend, Query};
+use oktant::media::media_at;
+use oktant::progress::silent;
 use oktant::scene::Scene;
+use oktant::source::Source;
+use oktant::structure::StructureOptions;
+use oktant_shared::medium::Media;
 use oktant_shared::parts::{BoxKind, Parts, TraversalKind, TriangleKind};
 use oktant_tests::ray_classes::RayClass;
 use oktant_tests::subject::Subject;
 use oktant_tests::tally::Tally;
+use std::path::Path;
 use std::sync::Arc;
 
 /// Triangles that brute force tests for each class, mesh and query, on meshes that are too large for all rays.
@@ -137,6 +143,28 @@ fn every_combination_equals_the_oracle_on_the_gpu() {
         assert_eq!(sums.wrong, 0, "{parts}");
         assert!(sums.overlooked <= bound, "{parts}: {} overlooked", sums.overlooked);
     }
+}
+
+/// Oracle: the default structure. Some of the points are inside of the glass.
+#[test]
+fn what_a_point_is_inside_of_does_not_depend_on_the_structure() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/scenes/glass.toml");
+    let model = Source::from_path(path).load(&silent).unwrap().model;
+    let scenes: Vec<Scene> = TraversalKind::ALL
+        .iter()
+        .map(|traversal| Scene::of_model(model.clone(), &StructureOptions::of(*traversal), &silent).unwrap())
+        .collect();
+    let mut inside = 0;
+    let mesh = &model.mesh;
+    for vertex in (0..mesh.positions.len()).step_by(mesh.positions.len().div_ceil(200)) {
+        let point = mesh.positions[vertex] - mesh.normals[vertex] * (0.01 * scenes[0].radius());
+        let media = media_at(&scenes[0], point);
+        inside += usize::from(media != Media::AIR);
+        for scene in &scenes[1..] {
+            assert_eq!(media_at(scene, point), media, "{}, {point}", scene.parts);
+        }
+    }
+    assert!(inside > 10, "{inside}");
 }
 
 /// Every part is in some combination, so that nothing goes untested.

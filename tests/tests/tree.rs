@@ -9,7 +9,7 @@ use oktant::mesh::Mesh;
 use oktant::mesh_source::MeshSource;
 use oktant::model::Model;
 use oktant::progress::silent;
-use oktant::scene::Scene;
+use oktant::scene::{Memory, Scene};
 use oktant::shapes::stadium;
 use oktant::structure::StructureOptions;
 use oktant::tree::{BinaryTree, BuildPreset, CollapseOptions, Costs, MAX_LEAF, WideTree};
@@ -165,8 +165,7 @@ fn no_structure_takes_more_than_72_bytes_a_triangle() {
                 ..StructureOptions::default()
             };
             let scene = Scene::new(&mesh, &options, &silent).unwrap();
-            let bytes = scene.structure_bytes() + size_of_val(scene.triangles.as_slice());
-            let each = bytes as f64 / mesh.triangles.len() as f64;
+            let each = Memory::of(&scene).traced() as f64 / mesh.triangles.len() as f64;
             println!("{name}, {}: {each:.2}", preset.name());
             assert!(each <= 72.0, "{name}, {}: {each}", preset.name());
         }
@@ -345,7 +344,7 @@ fn builds_are_measured() {
                             let start = Instant::now();
                             let scene = Scene::of_model(model, &options, &silent).unwrap();
                             let time = start.elapsed().as_secs_f64();
-                            bytes = scene.structure_bytes() + size_of_val(scene.triangles.as_slice());
+                            bytes = Memory::of(&scene).traced();
                             time
                         })
                     })

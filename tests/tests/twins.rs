@@ -6,7 +6,7 @@
 
 use glam::{Vec3, Vec4, vec3};
 use oktant::backend::cpu::Cpu;
-use oktant::backend::gpu::{FusedMultiplyAdd, Gpu, GpuBackend, GpuOptions, ModulePath};
+use oktant::backend::gpu::{FusedMultiplyAdd, Gpu, GpuBackend, GpuOptions, Kernel, ModulePath};
 use oktant::backend::{Backend, BackendError};
 use oktant::balls::balls;
 use oktant::mesh::Mesh;
@@ -29,6 +29,7 @@ use oktant_shared::triangle::Triangle;
 use oktant_shared::triangle_test::{BaldwinWeber, MollerTrumbore, Plucker, TriangleTest, Watertight};
 use oktant_tests::compare::{ColorDifferences, HitDifferences};
 use oktant_tests::data::reference;
+use std::path::Path;
 use std::sync::Arc;
 
 fn open(module: ModulePath) -> Arc<Gpu> {
@@ -279,8 +280,15 @@ fn box_test_probe() {
     }
 }
 
+/// The module of `kernel/probes` on the device.
+fn open_probes() -> Gpu {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../kernel/compiled/probes/oktant.spv");
+    let probes = Kernel::read_probes(&path).unwrap_or_else(|error| panic!("{error}"));
+    open(ModulePath::Auto).with_probes(Arc::new(probes)).unwrap()
+}
+
 fn triangle_probe<T: TriangleTest>(entry: &'static str) {
-    let gpu = open(ModulePath::Auto);
+    let gpu = open_probes();
     let mut random = fastrand::Rng::with_seed(5);
     let mut inside = || vec3(random.f32() - 0.5, random.f32() - 0.5, random.f32() - 0.5);
     let triangles: Vec<Triangle> = (0..COUNT)
@@ -339,7 +347,7 @@ fn plucker_probe() {
 #[test]
 #[ignore = "needs a Vulkan driver"]
 fn secondary_origin_probe() {
-    let gpu = open(ModulePath::Auto);
+    let gpu = open_probes();
     let corners = points(COUNT * 3, 6);
     let triangles: Vec<Triangle> = corners
         .chunks(3)
@@ -384,7 +392,7 @@ fn secondary_origin_probe() {
 #[test]
 #[ignore = "needs a Vulkan driver"]
 fn color_probe() {
-    let gpu = open(ModulePath::Auto);
+    let gpu = open_probes();
     let colors: Vec<u32> = (0..=255).map(|i| i | (255 - i) << 8 | (i / 2) << 16).collect();
     let results = gpu.probe_one("probe_color", &colors).unwrap();
     for (color, r) in colors.iter().zip(&results) {

@@ -15,7 +15,7 @@ use oktant_shared::ray::Ray;
 use oktant_shared::render::{Pixel, hit_pixel, render_pixel};
 use oktant_shared::sampling::Batch;
 use oktant_shared::scene::World;
-use oktant_shared::traversal::{Standard, Traversal};
+use oktant_shared::traversal::{Compact, Standard, Traversal};
 use oktant_shared::variant::{EVERYTHING, MIRRORED, OPAQUE, PLAIN, Variant};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -163,15 +163,20 @@ impl Cpu {
 
     /// The kernel's body for the scene.
     fn body(&self) -> fn(&Frame, &World<'_>, UVec2, &Batch) -> Pixel {
-        if self.scene.parts != Parts::default() {
-            return render_pixel::<General, EVERYTHING>;
+        match self.scene.parts {
+            Parts::STANDARD => body::<Standard>(self.scene.variant),
+            Parts::COMPACT => body::<Compact>(self.scene.variant),
+            _ => render_pixel::<General, EVERYTHING>,
         }
-        match self.scene.variant {
-            Variant::Plain => render_pixel::<Standard, PLAIN>,
-            Variant::Opaque => render_pixel::<Standard, OPAQUE>,
-            Variant::Mirrors => render_pixel::<Standard, MIRRORED>,
-            Variant::Everything => render_pixel::<Standard, EVERYTHING>,
-        }
+    }
+}
+
+fn body<V: Traversal>(variant: Variant) -> fn(&Frame, &World<'_>, UVec2, &Batch) -> Pixel {
+    match variant {
+        Variant::Plain => render_pixel::<V, PLAIN>,
+        Variant::Opaque => render_pixel::<V, OPAQUE>,
+        Variant::Mirrors => render_pixel::<V, MIRRORED>,
+        Variant::Everything => render_pixel::<V, EVERYTHING>,
     }
 }
 
@@ -221,10 +226,10 @@ impl Backend for Cpu {
         let world = self.scene.world();
         let size = frame.size();
         let mut hits = vec![Hit::miss(0.0); size.x as usize * size.y as usize];
-        let body = if self.scene.parts == Parts::default() {
-            hit_pixel::<Standard>
-        } else {
-            hit_pixel::<General>
+        let body = match self.scene.parts {
+            Parts::STANDARD => hit_pixel::<Standard>,
+            Parts::COMPACT => hit_pixel::<Compact>,
+            _ => hit_pixel::<General>,
         };
         for_each_tile(
             (&mut hits, &mut vec![(); size.x as usize * size.y as usize]),

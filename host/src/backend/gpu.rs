@@ -12,7 +12,7 @@ mod resources;
 pub use device::{Gpu, GpuOptions};
 pub use kernel::Kernel;
 pub use kernel_error::KernelError;
-pub use kernel_module::{KernelManifest, ModulePath, compiled_kernel};
+pub use kernel_module::{CompiledModule, KernelManifest, ModulePath, compiled_kernel};
 pub use layouts::{READ, WRITE, compute_pipeline, group_of_buffers};
 pub use probe::FusedMultiplyAdd;
 pub use resources::{GpuPicture, GpuScene};

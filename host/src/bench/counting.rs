@@ -66,7 +66,9 @@ fn with_box<B: BoxTest>(scene: &Scene, parts: Parts, query: Query, rays: &[Ray])
     };
     let scene = &scene;
     match parts.traversal {
-        TraversalKind::Octants => trace::<Along<Steps<octants::Walk>, B, T>>(scene, query, rays),
+        TraversalKind::Octants | TraversalKind::Compact => {
+            trace::<Along<Steps<octants::Walk>, B, T>>(scene, query, rays)
+        }
         TraversalKind::Octree => trace::<Along<Steps<revelles::Walk>, B, T>>(scene, query, rays),
         TraversalKind::Grid => trace::<Along<Steps<grid::Walk>, B, T>>(scene, query, rays),
         TraversalKind::Bvh2 => {

@@ -7,7 +7,7 @@ use super::tracer::{Device, Tracer};
 use crate::backend::BackendError;
 use crate::model::Model;
 use crate::progress::{Progress, silent};
-use crate::scene::{Scene, SceneError};
+use crate::scene::{Memory, Scene, SceneError};
 use crate::spread::Spread;
 use crate::structure::StructureOptions;
 use crate::tree::BuildPreset;
@@ -67,7 +67,7 @@ pub fn measure(
             continue;
         }
         let (scene, build_milliseconds) = build(subject, traversal, preset, plan.repeats)?;
-        let bytes = scene.structure_bytes() + size_of_val(scene.triangles.as_slice());
+        let bytes = Memory::of(&scene).traced();
         let able = devices
             .iter()
             .filter(|device| traversal != TraversalKind::Brute || subject.mesh.triangles.len() <= device.most_brute());
@@ -123,7 +123,10 @@ fn structures(plan: &Plan) -> Vec<(TraversalKind, BuildPreset)> {
 
 /// Whether a build preset makes a difference.
 fn is_tree(traversal: TraversalKind) -> bool {
-    matches!(traversal, TraversalKind::Octants | TraversalKind::Bvh2)
+    matches!(
+        traversal,
+        TraversalKind::Octants | TraversalKind::Compact | TraversalKind::Bvh2
+    )
 }
 
 fn fits(traversal: TraversalKind, set: &JudgedSet, subject: &Subject) -> bool {

@@ -86,8 +86,9 @@ fn offered(traversal: TraversalKind) -> impl Iterator<Item = Parts> {
         .filter(move |parts| parts.traversal == traversal)
 }
 
-const TRAVERSALS: [TraversalKind; 4] = [
+const TRAVERSALS: [TraversalKind; 5] = [
     TraversalKind::Octants,
+    TraversalKind::Compact,
     TraversalKind::Octree,
     TraversalKind::Bvh2,
     TraversalKind::Grid,

@@ -10,7 +10,7 @@ use crate::octree::OctreeOptions;
 use crate::oracle::Oracle;
 use crate::progress::{Progress, silent};
 use crate::ray_sets::{RaySet, fitted};
-use crate::scene::Scene;
+use crate::scene::{Memory, Scene};
 use crate::structure::StructureOptions;
 use oktant_shared::octree::MAX_DEPTH;
 use oktant_shared::parts::{BoxKind, Parts, TraversalKind, TriangleKind};
@@ -108,7 +108,7 @@ fn measured(
     sets: &[RaySet],
     triangles: usize,
 ) -> Result<[(&'static str, f64); 4], MeasureError> {
-    let bytes = scene.structure_bytes() + size_of_val(scene.triangles.as_slice());
+    let bytes = Memory::of(&scene).traced();
     let references = scene.references.len();
     let cpu = Cpu::new(Arc::new(scene));
     let (mut milliseconds, mut work, mut rays) = (0.0, 0, 0);

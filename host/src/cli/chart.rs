@@ -7,7 +7,7 @@ use super::progress_bar::ProgressBar;
 use clap::ValueEnum;
 use glam::uvec2;
 use oktant::chart::{
-    Figure, Plan, accuracy, chart_name, command_line, depth_error, growth, image_error, octree, peers, range,
+    Figure, Plan, accuracy, chart_name, command_line, depth_error, growth, image_error, memory, octree, peers, range,
 };
 use oktant::mesh_source::MeshSource;
 use oktant::output::TextFile;
@@ -109,10 +109,10 @@ fn mesh(source: &Source) -> Option<&MeshSource> {
 /// Which charts are measured, where these are named and `reads` says that others are read.
 fn kinds(named: Vec<ChartKind>, sources: &[Source], reads: bool) -> Result<Vec<ChartKind>, Failure> {
     let has_only_scenes = !sources.is_empty() && !sources.iter().any(|source| mesh(source).is_some());
-    let is_of_meshes = |kind: &ChartKind| matches!(kind, ChartKind::Accuracy | ChartKind::Octree);
+    let is_of_meshes = |kind: &ChartKind| matches!(kind, ChartKind::Accuracy | ChartKind::Octree | ChartKind::Memory);
     if has_only_scenes && named.iter().any(is_of_meshes) {
         return Err(Failure::usage(
-            "accuracy and octree are of meshes; name one, e.g. bunny, beside the scene.",
+            "accuracy, octree and memory are of meshes; name one, e.g. bunny, beside the scene.",
         ));
     }
     Ok(match (named.is_empty(), has_only_scenes) {
@@ -128,6 +128,7 @@ fn measured(kind: ChartKind, plan: &Plan, progress: Progress<'_>) -> Result<Vec<
         ChartKind::Accuracy => vec![accuracy(plan, progress)?],
         ChartKind::Range => range(plan, progress)?.into(),
         ChartKind::Octree => octree(plan, progress)?,
+        ChartKind::Memory => vec![memory(plan, progress)?],
         ChartKind::Growth => vec![growth(plan, progress)?],
         ChartKind::ImageError => image_error(plan, progress)?.into(),
         ChartKind::DepthError => vec![depth_error(plan, progress)?],

@@ -4,6 +4,7 @@ use super::Failure;
 use super::arguments::InfoArguments;
 use glam::DVec3;
 use oktant::backend::gpu::{Gpu, GpuOptions, compiled_kernel};
+use oktant::scene::Memory;
 use oktant::structure::Figures;
 use oktant_shared::variant::NEEDS;
 use std::fmt::Write;
@@ -62,15 +63,15 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         ),
     );
     line("leaves", histogram(&statistics));
+    let memory = Memory::of(scene);
+    let each = |bytes: usize| bytes as f64 / triangles;
     line(
         "bytes",
         format!(
-            "{}, {:.1} per triangle ({:.1} structure, {:.1} triangles, {:.1} normals and colours)",
-            scene.bytes(),
-            scene.bytes() as f64 / triangles,
-            scene.structure_bytes() as f64 / triangles,
-            size_of_val(scene.triangles.as_slice()) as f64 / triangles,
-            size_of_val(scene.vertices.as_slice()) as f64 / triangles,
+            "{}, {:.1} per triangle, {:.1} of these to trace rays",
+            memory.total(),
+            each(memory.total()),
+            each(memory.traced())
         ),
     );
     line("needs", needs(scene.needs));
@@ -78,6 +79,19 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         "variant",
         format!("{}, of plain, opaque, mirrors and everything", scene.variant),
     );
+    let arrays = [
+        ("nodes", memory.nodes),
+        ("references", memory.references),
+        ("triangles", memory.triangles),
+        ("ids", memory.ids),
+        ("normals", memory.normals),
+        ("colours", memory.colors),
+        ("coordinates", memory.coordinates),
+        ("materials", memory.materials),
+        ("others", memory.others),
+    ];
+    let arrays = arrays.map(|(name, bytes)| format!("{name} {:.1}", each(bytes)));
+    line("arrays", format!("bytes per triangle: {}", arrays.join(", ")));
     line(
         "time",
         format!(
@@ -86,14 +100,19 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
             loaded.building.as_secs_f64() * 1e3
         ),
     );
-    let (words, manifest) = compiled_kernel();
+    let modules = compiled_kernel();
+    let [standard, others] = modules.each_ref().map(|module| {
+        format!(
+            "{} bytes, {} entry points",
+            module.words.len() * 4,
+            module.manifest.entry_points.len()
+        )
+    });
     line(
         "kernel",
         format!(
-            "{} bytes, {} entry points, rust-gpu {}",
-            words.len() * 4,
-            manifest.entry_points.len(),
-            manifest.rust_gpu
+            "{standard}; for other parts {others}; rust-gpu {}",
+            modules[0].manifest.rust_gpu
         ),
     );
     let adapters = Gpu::adapters(&Gpu::instance());

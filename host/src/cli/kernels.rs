@@ -53,8 +53,12 @@ struct Combination {
 
 impl Listing {
     fn new() -> Self {
-        let (_, manifest) = compiled_kernel();
-        let is_compiled = |name: &str| manifest.entry_points.iter().any(|entry| entry.name == name);
+        let modules = compiled_kernel();
+        let entries: Vec<_> = modules
+            .iter()
+            .flat_map(|module| &module.manifest.entry_points)
+            .collect();
+        let is_compiled = |name: &str| entries.iter().any(|entry| entry.name == name);
         let combinations = Parts::OFFERED.iter().filter_map(|parts| {
             let (closest, any) = parts.entry_points()?;
             // Every combination is compiled into the program; the kernel's entry points come from its file.

@@ -42,7 +42,7 @@ impl Figures {
                         figures.leaf(node.count, level);
                     }
                 }
-                TraversalKind::Octants => {
+                TraversalKind::Octants | TraversalKind::Compact => {
                     figures.inner += 1;
                     let at = (index * octants::NODE_VECTORS) as usize;
                     let (inner, links) = (nodes[at].w >> 24, nodes[at + 1]);

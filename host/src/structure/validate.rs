@@ -26,15 +26,32 @@ impl Structure {
         if let Some(id) = self.ids.iter().find(|id| **id as usize >= triangles) {
             return invalid(format!("it holds triangle {id} of {triangles}"));
         }
-        if let Some(slot) = self.references.iter().find(|slot| **slot as usize >= self.ids.len()) {
+        if self.traversal.is_indexed() {
+            self.check_indices()?;
+        } else if let Some(slot) = self.references.iter().find(|slot| **slot as usize >= self.ids.len()) {
             return invalid(format!("it refers to slot {slot} of {}", self.ids.len()));
         }
         match self.traversal {
             TraversalKind::Octree => self.check_octree(),
-            TraversalKind::Octants => self.check_octants(),
+            TraversalKind::Octants | TraversalKind::Compact => self.check_octants(),
             TraversalKind::Bvh2 => self.check_bvh2(),
             TraversalKind::Grid => self.check_grid(),
             TraversalKind::Brute => self.check_brute(),
+        }
+    }
+
+    fn check_indices(&self) -> Result<(), InvalidStructure> {
+        if self.references.len() != 3 * self.ids.len() {
+            return invalid(format!(
+                "it has {} corners of {} triangles",
+                self.references.len(),
+                self.ids.len()
+            ));
+        }
+        let count = self.corners.len();
+        match self.references.iter().find(|vertex| **vertex as usize >= count) {
+            Some(vertex) => invalid(format!("a triangle has corner {vertex} of {count}")),
+            None => Ok(()),
         }
     }
 

@@ -35,7 +35,7 @@ impl Cell {
 pub fn visits(scene: &Scene, record: &Record, scale: f32, advance: f32) -> Vec<Visit> {
     let given = |limit: f32| (limit + advance) * scale;
     match scene.parts.traversal {
-        TraversalKind::Octants => of_octants(scene, record, &given),
+        TraversalKind::Octants | TraversalKind::Compact => of_octants(scene, record, &given),
         TraversalKind::Bvh2 => of_bvh2(scene, record, &given),
         TraversalKind::Octree => {
             let cells = octree_cells(scene);

@@ -95,7 +95,9 @@ fn with_box<B: BoxTest>(scene: &Scene, view: &View<'_>, ray: &Ray) -> Hit {
     // Any triangle test, chosen while it runs, so that a new one needs nothing here.
     type T = Tests<AnyTriangle>;
     match scene.parts.traversal {
-        TraversalKind::Octants => Along::<Recorded<octants::Walk>, B, T>::closest_hit(view, ray),
+        TraversalKind::Octants | TraversalKind::Compact => {
+            Along::<Recorded<octants::Walk>, B, T>::closest_hit(view, ray)
+        }
         TraversalKind::Octree => Along::<Recorded<revelles::Walk>, B, T>::closest_hit(view, ray),
         TraversalKind::Grid => Along::<Recorded<grid::Walk>, B, T>::closest_hit(view, ray),
         TraversalKind::Bvh2 => Along::<Recorded<bvh2::Walk<Boxes<B>>>, B, T>::closest_hit(view, ray),
@@ -108,7 +110,7 @@ fn numbered(scene: &Scene) -> (Vec<UVec4>, Vec<u32>) {
     let mut nodes = scene.nodes.clone();
     let mut firsts = Vec::new();
     match scene.parts.traversal {
-        TraversalKind::Octants => {
+        TraversalKind::Octants | TraversalKind::Compact => {
             for (number, node) in nodes.chunks_exact_mut(octants::NODE_VECTORS as usize).enumerate() {
                 firsts.push(node[1].y);
                 node[1].y = number as u32;

@@ -131,7 +131,7 @@ impl Application {
             frames_a_second: self.figures.frames_a_second(now),
             kernel: self.figures.kernel,
             megarays_a_second: self.figures.megarays_a_second(),
-            triangles: self.scene.as_ref().map(|scene| scene.triangles.len()),
+            triangles: self.scene.as_ref().map(|scene| scene.ids.len()),
             size: self.session.size,
             samples: [self.session.view.samples.count(), self.figures.samples],
             phong: self.session.view.shading == Shading::Phong,
@@ -178,7 +178,7 @@ impl Application {
             (None, Some(scene)) => format!(
                 "oktant - {} - {} triangles - {}",
                 self.source,
-                caption::grouped(scene.triangles.len()),
+                caption::grouped(scene.ids.len()),
                 self.backend_name()
             ),
             (None, None) => "oktant".into(),

@@ -172,10 +172,7 @@ impl Application {
                 first.is_some_and(|first| first <= Duration::from_millis(*limit))
             }
             Expectation::Gpu(wanted) => matches!(self.image, Some(Image::Gpu(_))) == *wanted,
-            Expectation::Triangles(wanted) => self
-                .scene
-                .as_ref()
-                .is_some_and(|scene| scene.triangles.len() == *wanted),
+            Expectation::Triangles(wanted) => self.scene.as_ref().is_some_and(|scene| scene.ids.len() == *wanted),
             Expectation::Message(part) => self
                 .message
                 .as_ref()
@@ -191,7 +188,7 @@ impl Application {
             },
             Expectation::Gpu(_) => format!("the picture comes from: {}", self.backend_name()),
             Expectation::Triangles(_) => match &self.scene {
-                Some(scene) => format!("the mesh has {} triangles", scene.triangles.len()),
+                Some(scene) => format!("the mesh has {} triangles", scene.ids.len()),
                 None => "there is no mesh yet".into(),
             },
             Expectation::Message(_) => match &self.message {

@@ -12,6 +12,9 @@ use crate::compiler::Compiler;
 
 mod compiler;
 
+/// The crates in the kernel's folder that are compiled with it, each to a module of its own.
+const MODULES: [&str; 2] = ["parts", "probes"];
+
 /// Compiles oktant's kernel to SPIR-V with rust-gpu and writes the module and its manifest.
 ///
 /// Exit code: 0 when all is well, 1 when not (one sentence says what to do), 2 for a wrong command line.
@@ -27,7 +30,8 @@ struct Arguments {
     /// Print the module that is there as SPIR-V assembly.
     #[arg(long, group = "mode")]
     disassemble: bool,
-    /// The kernel crate [default: kernel, in oktant's workspace].
+    /// The kernel crate [default: kernel, in oktant's workspace, and the crates kernel/parts and kernel/probes, each of which
+    /// has a folder of its name in --out].
     #[arg(long = "crate", value_name = "DIR")]
     crate_dir: Option<PathBuf>,
     /// Where the module and its manifest belong [default: compiled, in the kernel crate].
@@ -63,15 +67,26 @@ fn run(arguments: &Arguments) -> Result<String, Error> {
         .expect("the builder lies in the folder of the kernel");
     let crate_dir = arguments.crate_dir.as_deref().unwrap_or(kernel);
     let out = arguments.out.clone().unwrap_or_else(|| crate_dir.join("compiled"));
+    let mut done = build(arguments, crate_dir, &out)?;
+    if arguments.crate_dir.is_none() && !arguments.disassemble {
+        for module in MODULES {
+            done += "\n";
+            done += &build(arguments, &crate_dir.join(module), &out.join(module))?;
+        }
+    }
+    Ok(done)
+}
+
+fn build(arguments: &Arguments, crate_dir: &Path, out: &Path) -> Result<String, Error> {
     if arguments.disassemble {
         let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
         return disassemble(&read(&out.join(manifest.file))?);
     }
     if arguments.check || arguments.hash {
-        return check(crate_dir, &out, arguments.check);
+        return check(crate_dir, out, arguments.check);
     }
     let (module, manifest) = Compiler::find(crate_dir)?.compile(crate_dir)?;
-    manifest.write(&module, &out)?;
+    manifest.write(&module, out)?;
     Ok(format!(
         "Wrote {} ({} bytes, {} entry points) and its manifest.",
         out.join(&manifest.file).display(),
@@ -82,28 +97,26 @@ fn run(arguments: &Arguments) -> Result<String, Error> {
 
 fn check(crate_dir: &Path, out: &Path, compile: bool) -> Result<String, Error> {
     let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
+    let what = format!("What is compiled in {}", out.display());
     manifest.check_sources(crate_dir)?;
     let module = read(&out.join(&manifest.file))?;
     manifest.check_module(&module)?;
     if !compile {
-        return Ok("The compiled kernel belongs to its sources.".into());
+        return Ok(format!("{what} belongs to its sources."));
     }
     let compiler = match Compiler::find(crate_dir) {
         Ok(compiler) if compiler.version() == manifest.rustc => compiler,
         Ok(compiler) => {
             return Ok(format!(
-                "The compiled kernel belongs to its sources; its bytes were not compared, because it was compiled by {} \
-                 and here is {}.",
+                "{what} belongs to its sources; its bytes were not compared, because it was compiled by {} and here is {}.",
                 manifest.rustc,
                 compiler.version()
             ));
         }
         Err(Error::NoCompiler) => {
-            return Ok(
-                "The compiled kernel belongs to its sources; its bytes were not compared, because rust-gpu's compiler is \
-                 not installed."
-                    .into(),
-            );
+            return Ok(format!(
+                "{what} belongs to its sources; its bytes were not compared, because rust-gpu's compiler is not installed."
+            ));
         }
         Err(error) => return Err(error),
     };
@@ -117,7 +130,7 @@ fn check(crate_dir: &Path, out: &Path, compile: bool) -> Result<String, Error> {
     if described != manifest {
         return Err(Error::Stale("the manifest is not what the builder would write".into()));
     }
-    Ok("The compiled kernel is, byte for byte, what its sources compile to.".into())
+    Ok(format!("{what} is, byte for byte, what its sources compile to."))
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Error> {

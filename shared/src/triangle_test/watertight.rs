@@ -6,12 +6,12 @@ mod four;
 use super::{Crossing, TriangleTest};
 use crate::arithmetic::{difference_of_products, multiply_subtract};
 use crate::ray::PreparedRay;
-#[cfg(target_arch = "x86_64")]
-use crate::scene::Scene;
 use crate::triangle::Triangle;
 #[cfg(target_arch = "x86_64")]
 use crate::triangle_test::Crossings;
 use glam::Vec3;
+#[cfg(target_arch = "x86_64")]
+use glam::Vec4;
 
 /// S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013: the triangle is sheared until
 /// the ray runs along an axis, then the origin is placed by three edge functions that two neighbours compute alike.
@@ -77,9 +77,9 @@ impl TriangleTest for Watertight {
 
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
-    unsafe fn crossings_at(&self, scene: &Scene<'_>, slots: [u32; 4], _count: u32) -> Crossings {
+    unsafe fn crossings_of(&self, corners: [[*const Vec4; 3]; 4], _count: u32) -> Crossings {
         // SAFETY: the caller's.
-        unsafe { four::crossings(self, scene.triangles, slots) }
+        unsafe { four::crossings(self, corners) }
     }
 }
 

@@ -2,12 +2,12 @@
 
 use super::kernel::Kernel;
 use super::kernel_error::KernelError;
-use super::kernel_module::{ModulePath, create_module};
+use super::kernel_module::{ModulePath, create_module, is_passed_through};
 use super::layouts::{Layouts, compute_pipeline};
 use crate::backend::BackendError;
 use oktant_shared::variant::Variant;
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Which device to take and how to hand it the kernel.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -36,7 +36,9 @@ pub struct Gpu {
     pub passthrough: bool,
     pub(super) layouts: Arc<Layouts>,
     options: GpuOptions,
+    kernel: Arc<Kernel>,
     module: wgpu::ShaderModule,
+    parts: OnceLock<wgpu::ShaderModule>,
     pipelines: Mutex<HashMap<&'static str, Arc<wgpu::ComputePipeline>>>,
     failure: Arc<Mutex<Option<String>>>,
 }
@@ -124,19 +126,26 @@ impl Gpu {
             }
         });
 
-        let layouts = Arc::new(Layouts::new(&device));
-        let (module, passthrough) =
-            load_kernel(&device, info.backend, options).map_err(|reason| failed(&name, options, &reason))?;
+        let passthrough = is_passed_through(&device, info.backend, options.module)
+            .map_err(|reason| failed(&name, options, &reason))?;
+        let kernel = options.kernel.clone().unwrap_or_else(|| Arc::new(Kernel::built_in()));
+        let module = scoped(&device, || {
+            create_module(&device, passthrough, &kernel.module, options.kernel.is_none())
+        })
+        .flatten()
+        .map_err(|reason| failed(&name, options, &reason))?;
         let gpu = Gpu {
             name,
             instance,
             adapter,
+            passthrough,
+            layouts: Arc::new(Layouts::new(&device)),
             device,
             queue,
-            passthrough,
-            layouts,
             options: options.clone(),
             module,
+            parts: OnceLock::new(),
+            kernel,
             pipelines: Mutex::default(),
             failure,
         };
@@ -151,25 +160,7 @@ impl Gpu {
     /// # Errors
     /// [`BackendError::Kernel`] where the driver or naga does not take the kernel or one of the pipelines.
     pub fn with_kernel(&self, kernel: Arc<Kernel>) -> Result<Self, BackendError> {
-        let options = GpuOptions {
-            kernel: Some(kernel),
-            ..self.options.clone()
-        };
-        let (module, passthrough) = load_kernel(&self.device, self.adapter.get_info().backend, &options)
-            .map_err(|reason| failed(&self.name, &options, &reason))?;
-        let gpu = Gpu {
-            name: self.name.clone(),
-            instance: self.instance.clone(),
-            adapter: self.adapter.clone(),
-            device: self.device.clone(),
-            queue: self.queue.clone(),
-            passthrough,
-            layouts: self.layouts.clone(),
-            options,
-            module,
-            pipelines: Mutex::default(),
-            failure: self.failure.clone(),
-        };
+        let gpu = self.with_probes(kernel)?;
         let entries: Vec<_> = {
             let pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
             pipelines.keys().copied().collect()
@@ -178,6 +169,37 @@ impl Gpu {
             gpu.pipeline(entry)?;
         }
         Ok(gpu)
+    }
+
+    /// The same device with a module that may have nothing but probes, and with no pipelines yet.
+    ///
+    /// # Errors
+    /// [`BackendError::Kernel`] where the driver or naga does not take the module.
+    pub fn with_probes(&self, kernel: Arc<Kernel>) -> Result<Self, BackendError> {
+        let options = GpuOptions {
+            kernel: Some(kernel.clone()),
+            ..self.options.clone()
+        };
+        let module = scoped(&self.device, || {
+            create_module(&self.device, self.passthrough, &kernel.module, false)
+        })
+        .flatten()
+        .map_err(|reason| failed(&self.name, &options, &reason))?;
+        Ok(Gpu {
+            name: self.name.clone(),
+            instance: self.instance.clone(),
+            adapter: self.adapter.clone(),
+            device: self.device.clone(),
+            queue: self.queue.clone(),
+            passthrough: self.passthrough,
+            layouts: self.layouts.clone(),
+            options,
+            module,
+            parts: OnceLock::new(),
+            kernel,
+            pipelines: Mutex::default(),
+            failure: self.failure.clone(),
+        })
     }
 
     /// Makes something of the kernel on the device.
@@ -192,6 +214,23 @@ impl Gpu {
     /// picture.
     pub fn module(&self) -> &wgpu::ShaderModule {
         &self.module
+    }
+
+    /// The module that has an entry point: that of other parts is handed to the device on first use.
+    ///
+    /// # Errors
+    /// [`BackendError::Failed`] or [`BackendError::Kernel`] where the driver or naga does not take it.
+    pub fn module_with(&self, entry: &str) -> Result<&wgpu::ShaderModule, BackendError> {
+        let Some(parts) = self.kernel.parts_with(entry) else {
+            return Ok(&self.module);
+        };
+        if let Some(module) = self.parts.get() {
+            return Ok(module);
+        }
+        let is_own = self.kernel.path().is_none();
+        let module = self.attempt(|| create_module(&self.device, self.passthrough, parts, is_own))?;
+        let module = module.map_err(|reason| self.failed(&reason))?;
+        Ok(self.parts.get_or_init(|| module))
     }
 
     /// Whether the device is a program that runs on the CPU.
@@ -241,30 +280,18 @@ impl Gpu {
         let pipeline = match pipelines.get(entry) {
             Some(pipeline) => pipeline.clone(),
             None => {
-                if let Some(kernel) = &self.options.kernel {
-                    kernel.check(entry)?;
+                if self.options.kernel.is_some() {
+                    self.kernel.check(entry)?;
                 }
+                let module = self.module_with(entry)?;
                 let made =
-                    self.attempt(|| compute_pipeline(&self.device, &self.module, self.layouts.pipeline(entry), entry))?;
+                    self.attempt(|| compute_pipeline(&self.device, module, self.layouts.pipeline(entry), entry))?;
                 pipelines.entry(entry).or_insert(Arc::new(made)).clone()
             }
         };
         self.check()?;
         Ok(pipeline)
     }
-}
-
-/// Hands the kernel of the options to a device; returns also whether it was passed through.
-fn load_kernel(
-    device: &wgpu::Device,
-    backend: wgpu::Backend,
-    options: &GpuOptions,
-) -> Result<(wgpu::ShaderModule, bool), String> {
-    let create = |kernel: &Kernel| create_module(device, backend, options.module, kernel);
-    scoped(device, || match &options.kernel {
-        Some(kernel) => create(kernel),
-        None => create(&Kernel::built_in()),
-    })?
 }
 
 /// Does something on a device. What goes wrong meanwhile is returned, and is not held against the device from then on.

@@ -35,71 +35,74 @@ const DRAWS: [(&str, ExecutionModel); 2] = [
     ("present_fragment", ExecutionModel::Fragment),
 ];
 
+/// A module of a kernel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct KernelModule {
+    pub words: Vec<u32>,
+    pub entry_points: Vec<KernelEntryPoint>,
+}
+
 /// A compiled kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Kernel {
-    pub(super) words: Vec<u32>,
-    pub(super) entry_points: Vec<KernelEntryPoint>,
+    /// What renders, shows pictures, and casts rays with the default parts.
+    pub(super) module: KernelModule,
+    /// What casts rays with other parts, if there is something.
+    pub(super) parts: Option<KernelModule>,
     path: Option<PathBuf>,
 }
 
 impl Kernel {
     /// The one that is part of the program.
     pub fn built_in() -> Self {
-        let (words, manifest) = compiled_kernel();
+        let [module, parts] = compiled_kernel().map(|module| KernelModule {
+            words: module.words,
+            entry_points: module.manifest.entry_points,
+        });
         Kernel {
-            words,
-            entry_points: manifest.entry_points,
+            module,
+            parts: Some(parts),
             path: None,
         }
     }
 
     /// Reads the kernel in an `.spv` file and holds it against its manifest: the file of the same name that ends in
-    /// `.toml`, else `manifest.toml` in the same folder.
+    /// `.toml`, else `manifest.toml` in the same folder. If beside it there is a folder `parts` with a file of that name, it
+    /// belongs to the kernel too: what casts rays with other parts than the default ones.
     ///
     /// # Errors
     /// [`KernelError`], see there.
     pub fn read(path: &Path) -> Result<Self, KernelError> {
-        let bytes = read(path)?;
-        let words: Vec<u32> = bytes
-            .chunks_exact(4)
-            .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
-            .collect();
-        if words.first() != Some(&MAGIC_NUMBER) {
-            return Err(KernelError::NotSpirv { path: path.into() });
-        }
-        let damaged = |reason: String| KernelError::Damaged {
-            path: path.into(),
-            reason,
-        };
-        if bytes.len() % 4 != 0 {
-            return Err(damaged(format!("{} bytes are no whole words", bytes.len())));
-        }
-        let module = load_words(&words).map_err(|error| damaged(error.to_string()))?;
-        check_manifest(path, &bytes)?;
+        let (module, parsed) = open(path)?;
         for (entry, model) in DRAWS {
-            if !entries(&module).any(|(of, name, _)| name == entry && of == model) {
+            if !entries(&parsed).any(|(of, name, _)| name == entry && of == model) {
                 return Err(KernelError::NoEntryPoint {
                     path: path.into(),
                     entry,
                 });
             }
         }
-        let entry_points = entries(&module)
-            .map(|(model, name, function)| KernelEntryPoint {
-                name: name.into(),
-                workgroup: (model == ExecutionModel::GLCompute)
-                    .then(|| local_size(&module, function))
-                    .flatten(),
-            })
-            .collect();
+        let parts = beside(path);
         let kernel = Kernel {
-            words,
-            entry_points,
+            module,
+            parts: if parts.exists() { Some(open(&parts)?.0) } else { None },
             path: Some(path.into()),
         };
         ALWAYS_NEEDED.iter().try_for_each(|entry| kernel.check(entry))?;
         Ok(kernel)
+    }
+
+    /// The same of a module that neither renders nor shows anything: for [`super::Gpu::with_probes`].
+    ///
+    /// # Errors
+    /// As [`Kernel::read`].
+    pub fn read_probes(path: &Path) -> Result<Self, KernelError> {
+        let (module, _) = open(path)?;
+        Ok(Kernel {
+            module,
+            parts: None,
+            path: Some(path.into()),
+        })
     }
 
     /// The file it was read from; none of the one that is part of the program.
@@ -109,8 +112,22 @@ impl Kernel {
 
     /// The files that [`Kernel::read`] looks at, there or not.
     pub fn files(path: &Path) -> Vec<PathBuf> {
-        let [own, common] = manifests(path);
-        vec![path.into(), own, common]
+        let parts = beside(path);
+        let files = [path, &parts].map(|module| {
+            let [own, common] = manifests(module);
+            [module.into(), own, common]
+        });
+        files.concat()
+    }
+
+    /// The module for other parts, where this entry point is in that one.
+    pub(super) fn parts_with(&self, entry: &str) -> Option<&KernelModule> {
+        let parts = self.parts.as_ref()?;
+        parts
+            .entry_points
+            .iter()
+            .any(|point| point.name == entry)
+            .then_some(parts)
     }
 
     /// Whether it has this entry point, in workgroups of the size that the host launches.
@@ -119,7 +136,12 @@ impl Kernel {
     /// [`KernelError::NoEntryPoint`] and [`KernelError::Workgroup`].
     pub(super) fn check(&self, entry: &'static str) -> Result<(), KernelError> {
         let path = self.path.clone().unwrap_or_default();
-        let found = self.entry_points.iter().find(|found| found.name == entry);
+        let mut entry_points = self
+            .parts
+            .iter()
+            .chain([&self.module])
+            .flat_map(|module| &module.entry_points);
+        let found = entry_points.find(|found| found.name == entry);
         let wanted = workgroup(entry);
         match found.and_then(|found| found.workgroup) {
             None => Err(KernelError::NoEntryPoint { path, entry }),
@@ -132,6 +154,42 @@ impl Kernel {
             Some(_) => Ok(()),
         }
     }
+}
+
+/// Reads a module, whatever is in it.
+fn open(path: &Path) -> Result<(KernelModule, Module), KernelError> {
+    let bytes = read(path)?;
+    let words: Vec<u32> = bytes
+        .chunks_exact(4)
+        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
+        .collect();
+    if words.first() != Some(&MAGIC_NUMBER) {
+        return Err(KernelError::NotSpirv { path: path.into() });
+    }
+    let damaged = |reason: String| KernelError::Damaged {
+        path: path.into(),
+        reason,
+    };
+    if bytes.len() % 4 != 0 {
+        return Err(damaged(format!("{} bytes are no whole words", bytes.len())));
+    }
+    let module = load_words(&words).map_err(|error| damaged(error.to_string()))?;
+    check_manifest(path, &bytes)?;
+    let entry_points = entries(&module)
+        .map(|(model, name, function)| KernelEntryPoint {
+            name: name.into(),
+            workgroup: (model == ExecutionModel::GLCompute)
+                .then(|| local_size(&module, function))
+                .flatten(),
+        })
+        .collect();
+    Ok((KernelModule { words, entry_points }, module))
+}
+
+/// Where the module for other parts is.
+fn beside(path: &Path) -> PathBuf {
+    let folder = path.parent().unwrap_or(Path::new("")).join("parts");
+    folder.join(path.file_name().unwrap_or_default())
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, KernelError> {

@@ -1,6 +1,6 @@
 //! The compiled kernel and the two ways it can go to a driver.
 
-use super::kernel::Kernel;
+use super::kernel::KernelModule;
 use crate::accident::caught_silently;
 use serde::Deserialize;
 use std::borrow::Cow;
@@ -44,31 +44,59 @@ pub struct KernelEntryPoint {
     pub workgroup: Option<[u32; 3]>,
 }
 
-/// The compiled kernel as words of SPIR-V, and its manifest; both are part of the program.
-pub fn compiled_kernel() -> (Vec<u32>, KernelManifest) {
-    let words = wgpu::util::make_spirv_raw(include_bytes!("../../../../kernel/compiled/oktant.spv")).into_owned();
-    let manifest = toml::from_str(include_str!("../../../../kernel/compiled/manifest.toml"))
-        .expect("the manifest was written by the builder and is tested");
-    (words, manifest)
+/// A module of the compiled kernel as words of SPIR-V, and its manifest.
+#[derive(Clone, Debug)]
+pub struct CompiledModule {
+    /// The module.
+    pub words: Vec<u32>,
+    /// What the builder wrote about it.
+    pub manifest: KernelManifest,
 }
 
-/// Hands the kernel to a device; returns also whether it was passed through.
-pub(super) fn create_module(
+/// The modules of the compiled kernel, all of them part of the program: what renders and casts with the default parts, then
+/// what casts with others.
+pub fn compiled_kernel() -> [CompiledModule; 2] {
+    let files: [(&[u8], &str); 2] = [
+        (
+            include_bytes!("../../../../kernel/compiled/oktant.spv"),
+            include_str!("../../../../kernel/compiled/manifest.toml"),
+        ),
+        (
+            include_bytes!("../../../../kernel/compiled/parts/oktant.spv"),
+            include_str!("../../../../kernel/compiled/parts/manifest.toml"),
+        ),
+    ];
+    files.map(|(module, manifest)| CompiledModule {
+        words: wgpu::util::make_spirv_raw(module).into_owned(),
+        manifest: toml::from_str(manifest).expect("the manifest was written by the builder and is tested"),
+    })
+}
+
+/// Whether modules can be passed through, and are to be.
+pub(super) fn is_passed_through(
     device: &wgpu::Device,
     backend: wgpu::Backend,
     path: ModulePath,
-    kernel: &Kernel,
-) -> Result<(wgpu::ShaderModule, bool), String> {
+) -> Result<bool, String> {
     let possible = backend == wgpu::Backend::Vulkan && device.features().contains(wgpu::Features::PASSTHROUGH_SHADERS);
-    let passthrough = match path {
-        ModulePath::Auto => possible,
-        ModulePath::Naga => false,
-        ModulePath::Passthrough if possible => true,
-        ModulePath::Passthrough => return Err("it cannot take the kernel unchanged; leave out --spirv".into()),
-    };
-    let words = kernel.words.clone();
+    match path {
+        ModulePath::Auto => Ok(possible),
+        ModulePath::Naga => Ok(false),
+        ModulePath::Passthrough if possible => Ok(true),
+        ModulePath::Passthrough => Err("it cannot take the kernel unchanged; leave out --spirv".into()),
+    }
+}
+
+/// Hands a module to a device, `is_own` if it is part of the program.
+pub(super) fn create_module(
+    device: &wgpu::Device,
+    passthrough: bool,
+    module: &KernelModule,
+    is_own: bool,
+) -> Result<wgpu::ShaderModule, String> {
+    let words = module.words.clone();
     let module = if passthrough {
-        let entry_points = kernel
+        let entry_points = module
             .entry_points
             .iter()
             .map(|entry| wgpu::PassthroughShaderEntryPoint {
@@ -97,13 +125,12 @@ pub(super) fn create_module(
                 wgpu::ShaderRuntimeChecks::unchecked(),
             )
         };
-        match kernel.path() {
-            None => translated(),
+        if is_own {
+            translated()
+        } else {
             // naga panics where a module makes no sense in some ways.
-            Some(_) => {
-                caught_silently(translated).map_err(|accident| format!("naga does not understand it: {accident}"))?
-            }
+            caught_silently(translated).map_err(|accident| format!("naga does not understand it: {accident}"))?
         }
     };
-    Ok((module, passthrough))
+    Ok(module)
 }

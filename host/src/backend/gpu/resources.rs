@@ -62,12 +62,18 @@ impl Gpu {
     pub fn upload(&self, scene: &Scene) -> Result<GpuScene, BackendError> {
         let nodes = self.input("nodes", &scene.nodes)?;
         let references = self.input("references", &scene.references)?;
-        let triangles = self.input("triangles", &scene.triangles)?;
+        let triangles = self.input("triangles", scene.rows())?;
         let ids = self.input("triangle ids", &scene.ids)?;
         let geometry = [&nodes, &references, &triangles, &ids];
         let vertices = self.input("vertices", &scene.vertices)?;
         let coordinates = self.input("texture coordinates", &scene.coordinates)?;
-        let material_ids = self.input("material ids", &scene.material_ids)?;
+        let is_general = scene.parts != Parts::STANDARD;
+        let material_ids = if is_general && scene.material_ids.len() < scene.ids.len() {
+            // The CPU has a body of its own for such a scene.
+            self.input("material ids", &vec![0_u32; scene.ids.len()])?
+        } else {
+            self.input("material ids", &scene.material_ids)?
+        };
         let materials = self.input("materials", &scene.materials)?;
         let lights = self.input("lights", &scene.lights)?;
         let planes = self.input("planes", &scene.planes)?;
@@ -90,10 +96,10 @@ impl Gpu {
             parts: scene.parts,
             planes: scene.planes.clone(),
             root: scene.root,
-            entry: if scene.parts == Parts::default() {
-                scene.variant.entry_point()
-            } else {
+            entry: if is_general {
                 "render_general"
+            } else {
+                scene.variant.entry_point()
             },
             is_plain: scene.is_plain(),
             bytes: geometry.iter().chain(&appearance).map(|buffer| buffer.size()).sum(),

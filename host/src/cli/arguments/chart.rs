@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct ChartArguments {
-    /// Which charts, and what of: any of accuracy, range, octree, growth, image-error and depth-error [default: all of them,
+    /// Which charts, and what of: any of accuracy, range, octree, memory, growth, image-error and depth-error [default: all of them,
     /// unless only --from or --peers are given; of scenes alone the last two], and mesh files or built-in meshes, and for the
     /// last two also scene files [default: bunny].
     #[arg(value_name = "CHART|MESH|SCENE")]
@@ -50,6 +50,8 @@ pub enum ChartKind {
     Range,
     /// Time and memory against depth and leaves of the octree.
     Octree,
+    /// Speed against bytes a triangle.
+    Memory,
     /// Work and time against the number of triangles.
     Growth,
     /// A picture's error against time, by samples and pattern.

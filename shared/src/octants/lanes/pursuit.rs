@@ -155,7 +155,7 @@ pub(super) fn pursue_one<T: TriangleTest, const ANY: bool>(scene: &Scene<'_>, ra
     let Some(start) = Start::new(scene, ray) else {
         return Hit::miss(ray.t_max);
     };
-    let count = scene.triangles.len() / 3;
+    let count = T::slots(scene);
     let mut stack = [MaybeUninit::<Group>::uninit(); DEPTH];
     let mut enters = [MaybeUninit::<__m256>::uninit(); DEPTH];
     stack[0] = MaybeUninit::new(Group::EMPTY);
@@ -176,7 +176,7 @@ pub(super) fn pursue<T: TriangleTest, const ANY: bool>(
     rays: &[Ray],
     mut tell: impl FnMut(usize, Hit),
 ) {
-    let count = scene.triangles.len() / 3;
+    let count = T::slots(scene);
     let mut started = 0;
     // Groups of which children remain to be visited, above an empty one, and where the ray enters the children of their
     // nodes, which is of use once its limit moves.

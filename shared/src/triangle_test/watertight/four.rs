@@ -8,19 +8,24 @@ use glam::Vec4;
 /// For each axis, where in a corner's row its rotated components lie.
 const ROTATED: [[i32; 4]; 3] = [[1, 2, 0, 3], [2, 0, 1, 3], [0, 1, 2, 3]];
 
-/// Where the ray's line crosses the triangles at four slots: operation by operation the same as that of one triangle.
+/// Where the ray's line crosses four triangles, of each of which is said where the rows of its corners lie: operation by
+/// operation the same as that of one triangle.
 ///
 /// # Safety
-/// The processor has AVX, and the slots are in range.
+/// The processor has AVX, and there are rows at all twelve places.
 #[inline(always)]
-pub(super) unsafe fn crossings(test: &Watertight, rows: &[Vec4], slots: [u32; 4]) -> Crossings {
+pub(super) unsafe fn crossings(test: &Watertight, [p, q, r, s]: [[*const Vec4; 3]; 4]) -> Crossings {
     // SAFETY: the caller's; rows are words, which can be read from anywhere, and `axis` is at most 2.
     unsafe {
         let rotation = _mm_loadu_si128(ROTATED.as_ptr().add(test.axis as usize).cast());
-        let rows = rows.as_ptr();
-        let corner = |which: usize| {
-            let [r0, r1, r2, r3] =
-                slots.map(|slot| _mm_permutevar_ps(_mm_loadu_ps(rows.add(3 * slot as usize + which).cast()), rotation));
+        // `map` of an array may be a call.
+        macro_rules! row {
+            ($at:expr) => {
+                _mm_permutevar_ps(_mm_loadu_ps($at.cast()), rotation)
+            };
+        }
+        let sheared = |p: *const Vec4, q: *const Vec4, r: *const Vec4, s: *const Vec4| {
+            let (r0, r1, r2, r3) = (row!(p), row!(q), row!(r), row!(s));
             let (low01, low23) = (_mm_unpacklo_ps(r0, r1), _mm_unpacklo_ps(r2, r3));
             let (high01, high23) = (_mm_unpackhi_ps(r0, r1), _mm_unpackhi_ps(r2, r3));
             let x = _mm_sub_ps(_mm_movelh_ps(low01, low23), _mm_set1_ps(test.origin.x));
@@ -32,7 +37,9 @@ pub(super) unsafe fn crossings(test: &Watertight, rows: &[Vec4], slots: [u32; 4]
                 _mm_mul_ps(z, _mm_set1_ps(test.shear.z)),
             )
         };
-        let (a, b, c) = (corner(0), corner(1), corner(2));
+        let a = sheared(p[0], q[0], r[0], s[0]);
+        let b = sheared(p[1], q[1], r[1], s[1]);
+        let c = sheared(p[2], q[2], r[2], s[2]);
         let difference_of_products = |a, b, c, d| _mm_sub_ps(_mm_mul_ps(a, b), _mm_mul_ps(c, d));
         let weight_a = difference_of_products(c.0, b.1, c.1, b.0);
         let weight_b = difference_of_products(a.0, c.1, a.1, c.0);

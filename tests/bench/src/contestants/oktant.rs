@@ -4,7 +4,7 @@ use crate::contestant::{Contestant, Entry, Failure};
 use oktant::mesh::Mesh;
 use oktant::model::Model;
 use oktant::progress::silent;
-use oktant::scene::Scene;
+use oktant::scene::{Memory, Scene};
 use oktant::structure::StructureOptions;
 use oktant::tree::BuildPreset;
 use oktant_shared::hit::Hit;
@@ -27,7 +27,7 @@ impl Contestant for Oktant {
     }
 
     fn bytes(&self) -> Option<usize> {
-        Some(self.0.structure_bytes() + size_of_val(self.0.triangles.as_slice()))
+        Some(Memory::of(&self.0).traced())
     }
 }
 

@@ -69,7 +69,10 @@ impl<'a> Caster<'a> {
     /// Where the device does not take it.
     pub fn pipelines(&self, kernel: Kernel) -> Result<[wgpu::ComputePipeline; 2], BackendError> {
         let pipelines = match kernel {
-            Kernel::Oktant(entries) => entries.map(|entry| self.pipeline(self.gpu.module(), entry)),
+            Kernel::Oktant([closest, any]) => [
+                self.pipeline(self.gpu.module_with(closest)?, closest),
+                self.pipeline(self.gpu.module_with(any)?, any),
+            ],
             Kernel::Modules([closest, any]) => [
                 self.pipeline(&self.module(closest)?, "main"),
                 self.pipeline(&self.module(any)?, "main"),

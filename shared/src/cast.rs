@@ -1,12 +1,17 @@
-//! Arrays of rays.
+//! Arrays of rays on a GPU: what an invocation or a workgroup does, and the entry points of all combinations that are
+//! offered.
+//!
+//! rust-gpu names an entry point by the path of its function, so [`cast_standard`](crate::cast_standard) and
+//! [`cast_others`](crate::cast_others) make them at the root of a crate. They are in modules of their own, because a driver
+//! reads all of a module before it makes a pipeline, and most scenes need the first alone.
 
+use crate::brute::{Tile, Together, Workgroup};
+use crate::buffer::store;
+use crate::hit::Hit;
+use crate::ray::Ray;
+use crate::scene::Scene;
+use crate::traversal::Traversal;
 use glam::{UVec3, UVec4, Vec4};
-use oktant_shared::brute::{Tile, Together, Workgroup};
-use oktant_shared::buffer::store;
-use oktant_shared::hit::Hit;
-use oktant_shared::ray::Ray;
-use oktant_shared::scene::Scene;
-use oktant_shared::traversal::Traversal;
 
 /// Threads of a workgroup.
 const LINE: u32 = 64;
@@ -16,6 +21,8 @@ const ROW: u32 = 32_768;
 
 /// An entry point that takes `$inputs` beside the buffers, and calls `$cast` with `$arguments`, the scene, the rays and where
 /// the hits go.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! cast {
     ($doc:literal, $name:ident, { $($inputs:tt)* } $cast:ident, $kind:ty, $($arguments:ident)+) => {
         #[doc = $doc]
@@ -26,11 +33,11 @@ macro_rules! cast {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] references: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] triangles: &[glam::Vec4],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] ids: &[u32],
-            #[spirv(uniform, descriptor_set = 1, binding = 0)] frame: &oktant_shared::frame::Frame,
+            #[spirv(uniform, descriptor_set = 1, binding = 0)] frame: &$crate::frame::Frame,
             #[spirv(storage_buffer, descriptor_set = 2, binding = 0)] hits: &mut [glam::UVec4],
             #[spirv(storage_buffer, descriptor_set = 2, binding = 1)] rays: &[glam::Vec4],
         ) {
-            let scene = oktant_shared::scene::Scene {
+            let scene = $crate::scene::Scene {
                 root: frame.root,
                 nodes,
                 references,
@@ -43,18 +50,20 @@ macro_rules! cast {
     };
 }
 
-/// The entry points of a combination: by [`Brute`](oktant_shared::brute::Brute) the rays of a workgroup together, by all others
+/// The entry points of a combination: by [`Brute`](crate::brute::Brute) the rays of a workgroup together, by all others
 /// each ray on its own.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! cast_with {
     (Brute, $kind:ty, $doc:literal, $name:ident, $alone:ident $together:ident) => {
-        cast!($doc, $name, {
+        $crate::cast!($doc, $name, {
             #[spirv(workgroup_id)] group: glam::UVec3,
             #[spirv(local_invocation_index)] invocation: u32,
-            #[spirv(workgroup)] tile: &mut oktant_shared::brute::Tile,
+            #[spirv(workgroup)] tile: &mut $crate::brute::Tile,
         } $together, $kind, group invocation tile);
     };
     ($traversal:ident, $kind:ty, $doc:literal, $name:ident, $alone:ident $together:ident) => {
-        cast!($doc, $name, {
+        $crate::cast!($doc, $name, {
             #[spirv(global_invocation_id)] id: glam::UVec3,
         } $alone, $kind, id);
     };
@@ -65,7 +74,8 @@ fn is_there(index: u32, rays: &[Vec4], hits: &[UVec4]) -> bool {
     (index < hits.len() as u32) & (2 * index + 1 < rays.len() as u32)
 }
 
-pub(crate) fn closest<V: Traversal>(id: UVec3, scene: &Scene<'_>, rays: &[Vec4], hits: &mut [UVec4]) {
+/// Writes the nearest hit of the invocation's ray.
+pub fn closest<V: Traversal>(id: UVec3, scene: &Scene<'_>, rays: &[Vec4], hits: &mut [UVec4]) {
     let index = id.y * (ROW * LINE) + id.x;
     if is_there(index, rays, hits) {
         let hit = V::closest_hit(scene, &Ray::of_rows(rays, index));
@@ -73,7 +83,8 @@ pub(crate) fn closest<V: Traversal>(id: UVec3, scene: &Scene<'_>, rays: &[Vec4],
     }
 }
 
-pub(crate) fn any<V: Traversal>(id: UVec3, scene: &Scene<'_>, rays: &[Vec4], hits: &mut [UVec4]) {
+/// Writes a hit on triangle 0 if the invocation's ray hits anything, else a miss.
+pub fn any<V: Traversal>(id: UVec3, scene: &Scene<'_>, rays: &[Vec4], hits: &mut [UVec4]) {
     let index = id.y * (ROW * LINE) + id.x;
     if is_there(index, rays, hits) {
         let ray = Ray::of_rows(rays, index);
@@ -94,7 +105,8 @@ fn answer(is_hit: bool, ray: &Ray) -> Hit {
     }
 }
 
-pub(crate) fn closest_together<V: Together>(
+/// As [`closest`], the rays of a workgroup together.
+pub fn closest_together<V: Together>(
     group: UVec3,
     invocation: u32,
     tile: &mut Tile,
@@ -116,7 +128,8 @@ pub(crate) fn closest_together<V: Together>(
     }
 }
 
-pub(crate) fn any_together<V: Together>(
+/// As [`any`], the rays of a workgroup together.
+pub fn any_together<V: Together>(
     group: UVec3,
     invocation: u32,
     tile: &mut Tile,
@@ -137,12 +150,32 @@ pub(crate) fn any_together<V: Together>(
     }
 }
 
-/// The entry points of all combinations. rust-gpu names an entry point by the path of its function, so they are made at the root.
-macro_rules! cast_all {
-    ($($traversal:ident $triangle:ident $box_test:ident $closest:ident $any:ident $kind:ty;)+) => {$(
-        cast_with!($traversal, $kind, "Writes the nearest hit of each ray.", $closest, closest closest_together);
-        cast_with!(
+/// The entry points of the default parts, the first of [`offered_parts`](crate::offered_parts).
+#[macro_export]
+macro_rules! cast_standard {
+    ($traversal:ident $triangle:ident $box_test:ident $closest:ident $any:ident $kind:ty; $($others:tt)*) => {
+        $crate::cast_both!($traversal $closest $any $kind);
+    };
+}
+
+/// The entry points of all others.
+#[macro_export]
+macro_rules! cast_others {
+    (
+        $first:ident $first_triangle:ident $first_box_test:ident $first_closest:ident $first_any:ident $first_kind:ty;
+        $($traversal:ident $triangle:ident $box_test:ident $closest:ident $any:ident $kind:ty;)+
+    ) => {
+        $($crate::cast_both!($traversal $closest $any $kind);)+
+    };
+}
+
+#[doc(hidden)]
+#[macro_export]
+macro_rules! cast_both {
+    ($traversal:ident $closest:ident $any:ident $kind:ty) => {
+        $crate::cast_with!($traversal, $kind, "Writes the nearest hit of each ray.", $closest, closest closest_together);
+        $crate::cast_with!(
             $traversal, $kind, "Writes for each ray triangle 0 if anything is hit, else a miss.", $any, any any_together
         );
-    )+};
+    };
 }
