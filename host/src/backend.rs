@@ -10,6 +10,7 @@ use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
 use oktant_shared::parts::Parts;
 use oktant_shared::ray::Ray;
+use std::time::{Duration, Instant};
 
 /// What is to render.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -126,5 +127,42 @@ impl BackendError {
             BackendError::KernelWithoutGpu(reason) => format!("There is no GPU for the kernel ({reason})"),
         };
         format!("{what}: the CPU renders.")
+    }
+}
+
+/// What takes long is not measured more often once it has taken so long altogether.
+const MEASURING: Duration = Duration::from_secs(5);
+
+/// Measures `repeats` times, or less, but once, where `limit` is over before.
+fn measured(
+    repeats: u32,
+    limit: Duration,
+    mut once: impl FnMut() -> Result<f64, BackendError>,
+) -> Result<Vec<f64>, BackendError> {
+    let start = Instant::now();
+    let mut times = Vec::new();
+    while times.len() < repeats as usize && (times.is_empty() || start.elapsed() < limit) {
+        times.push(once()?);
+    }
+    Ok(times)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn measuring_ends_after_the_repeats_or_when_its_time_is_over() {
+        let mut calls = 0;
+        let mut once = || {
+            calls += 1;
+            Ok(f64::from(calls))
+        };
+        let long = Duration::from_secs(3600);
+        assert_eq!(measured(3, long, &mut once), Ok(vec![1.0, 2.0, 3.0]));
+        assert_eq!(measured(3, Duration::ZERO, &mut once), Ok(vec![4.0]));
+        assert_eq!(measured(0, long, &mut once), Ok(vec![]));
+        let failed = || Err(BackendError::Parts(Parts::default()));
+        assert!(measured(3, long, failed).is_err());
     }
 }

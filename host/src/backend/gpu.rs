@@ -17,7 +17,7 @@ pub use layouts::{READ, WRITE, compute_pipeline, group_of_buffers};
 pub use probe::FusedMultiplyAdd;
 pub use resources::{GpuPicture, GpuScene};
 
-use super::{Backend, BackendError, Query};
+use super::{Backend, BackendError, MEASURING, Query, measured};
 use crate::adaptive;
 use crate::picture::Picture;
 use crate::progress::Progress;
@@ -49,6 +49,10 @@ const TREES_PER_DISPATCH: u64 = 1 << 21;
 const TILE: u32 = 8;
 /// Size of the workgroups of the entry points that take an array.
 const LINE: u32 = 64;
+/// Rays of an array that a dispatch may have where some take very long: as of a grid one of whose cells holds most triangles.
+const RAYS_PER_PIECE: usize = 1 << 18;
+/// Milliseconds up to which an array of rays is measured in dispatches of all of it: a hundredth of what watchdogs allow.
+const WHOLE: f64 = 20.0;
 /// Dispatches between two timestamps, one after the other: the start of a pass would count for more than a short kernel.
 const AT_ONCE: u32 = 8;
 /// Workgroups in a row of such a dispatch; the kernel counts on it.
@@ -93,18 +97,24 @@ impl GpuBackend {
     }
 
     /// Milliseconds that the kernel takes for an array of rays, `repeats` times over, by the device's own clock: each the
-    /// mean of eight dispatches.
+    /// mean of eight dispatches. Where one takes more than 20 ms, each is the sum of several dispatches of a part of the rays, and
+    /// there are fewer of them, but one, if they take more than five seconds.
     ///
     /// # Errors
     /// As [`GpuBackend::time_render`].
     pub fn time_cast(&self, parts: Parts, query: Query, rays: &[Ray], repeats: u32) -> Result<Vec<f64>, BackendError> {
         let cast = self.prepare_cast(parts, query, rays)?;
         let timer = self.timer()?;
-        timed(repeats, || {
+        let time = |piece: &Piece, times: u32| {
             let mut encoder = self.gpu.encoder();
-            cast.encode(&mut encoder, Some(&timer), AT_ONCE);
-            Ok(timer.finish(&self.gpu, encoder)? / f64::from(AT_ONCE))
-        })
+            cast.encode(&mut encoder, piece, Some(&timer), times);
+            timer.finish(&self.gpu, encoder)
+        };
+        let in_pieces = || cast.pieces.iter().map(|piece| time(piece, 1)).sum::<Result<f64, _>>();
+        if in_pieces()? > WHOLE {
+            return measured(repeats, MEASURING, in_pieces);
+        }
+        timed(repeats, || Ok(time(&cast.whole, AT_ONCE)? / f64::from(AT_ONCE)))
     }
 
     /// What the first sample of each pixel sees, with rays made by the host: the entry point for it has the default parts.
@@ -195,15 +205,28 @@ impl GpuBackend {
             root: self.scene.root,
             ..bytemuck::Zeroable::zeroed()
         };
-        let hits = gpu.output("hits", size_of_val(rays) as u64 / 2)?;
+        let hits = gpu.output("hits", (rays.len() * size_of::<Hit>()) as u64)?;
         let input = gpu.input("rays", rays)?;
+        let piece = |first: usize, count: usize| Piece {
+            group: gpu.group_of_ranges(
+                &gpu.layouts.cast,
+                &[
+                    (&hits, first * size_of::<Hit>(), count * size_of::<Hit>()),
+                    (&input, first * size_of::<Ray>(), count * size_of::<Ray>()),
+                ],
+            ),
+            workgroups: (count as u32).div_ceil(LINE),
+        };
+        let firsts = (0..rays.len()).step_by(RAYS_PER_PIECE);
         Ok(Cast {
             pipeline: gpu.pipeline(entry)?,
             scene: &self.scene,
             frame: gpu.frame_group(&frame),
-            pass: gpu.group(&gpu.layouts.cast, &[&hits, &input]),
+            whole: piece(0, rays.len()),
+            pieces: firsts
+                .map(|first| piece(first, RAYS_PER_PIECE.min(rays.len() - first)))
+                .collect(),
             hits,
-            workgroups: (rays.len() as u32).div_ceil(LINE),
         })
     }
 }
@@ -226,13 +249,20 @@ struct Cast<'a> {
     pipeline: Arc<wgpu::ComputePipeline>,
     scene: &'a GpuScene,
     frame: wgpu::BindGroup,
-    pass: wgpu::BindGroup,
+    /// All rays, and the same in pieces.
+    whole: Piece,
+    pieces: Vec<Piece>,
     hits: wgpu::Buffer,
+}
+
+/// Some of the rays, and where their hits go.
+struct Piece {
+    group: wgpu::BindGroup,
     workgroups: u32,
 }
 
 impl Cast<'_> {
-    fn encode(&self, encoder: &mut wgpu::CommandEncoder, timer: Option<&Timer>, times: u32) {
+    fn encode(&self, encoder: &mut wgpu::CommandEncoder, piece: &Piece, timer: Option<&Timer>, times: u32) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("cast"),
             timestamp_writes: timer.map(Timer::writes),
@@ -240,11 +270,11 @@ impl Cast<'_> {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.scene.group, &[]);
         pass.set_bind_group(1, &self.frame, &[]);
-        pass.set_bind_group(2, &self.pass, &[]);
+        pass.set_bind_group(2, &piece.group, &[]);
         for _ in 0..times {
             pass.dispatch_workgroups(
-                self.workgroups.min(LINES_PER_ROW),
-                self.workgroups.div_ceil(LINES_PER_ROW),
+                piece.workgroups.min(LINES_PER_ROW),
+                piece.workgroups.div_ceil(LINES_PER_ROW),
                 1,
             );
         }
@@ -316,9 +346,11 @@ impl Backend for GpuBackend {
             return Ok(Vec::new());
         }
         let cast = self.prepare_cast(parts, query, rays)?;
-        let mut encoder = self.gpu.encoder();
-        cast.encode(&mut encoder, None, 1);
-        self.gpu.queue.submit([encoder.finish()]);
+        for piece in &cast.pieces {
+            let mut encoder = self.gpu.encoder();
+            cast.encode(&mut encoder, piece, None, 1);
+            self.gpu.queue.submit([encoder.finish()]);
+        }
         self.gpu.read(&cast.hits)
     }
 }

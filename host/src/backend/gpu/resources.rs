@@ -189,12 +189,29 @@ impl Gpu {
 
     /// A bind group of whole buffers.
     pub(super) fn group(&self, layout: &wgpu::BindGroupLayout, buffers: &[&wgpu::Buffer]) -> wgpu::BindGroup {
-        let entries: Vec<_> = buffers
+        let ranges: Vec<_> = buffers
+            .iter()
+            .map(|buffer| (*buffer, 0, buffer.size() as usize))
+            .collect();
+        self.group_of_ranges(layout, &ranges)
+    }
+
+    /// The same with parts of buffers, from an offset on, of a size, both in bytes.
+    pub(super) fn group_of_ranges(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        ranges: &[(&wgpu::Buffer, usize, usize)],
+    ) -> wgpu::BindGroup {
+        let entries: Vec<_> = ranges
             .iter()
             .zip(0..)
-            .map(|(buffer, binding)| wgpu::BindGroupEntry {
+            .map(|((buffer, offset, size), binding)| wgpu::BindGroupEntry {
                 binding,
-                resource: buffer.as_entire_binding(),
+                resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                    buffer,
+                    offset: *offset as u64,
+                    size: wgpu::BufferSize::new(*size as u64),
+                }),
             })
             .collect();
         self.device.create_bind_group(&wgpu::BindGroupDescriptor {
