@@ -1,5 +1,7 @@
 //! The watertight test.
 
+#[cfg(not(target_arch = "spirv"))]
+mod edge_on;
 #[cfg(target_arch = "x86_64")]
 mod four;
 
@@ -16,9 +18,11 @@ use glam::Vec4;
 /// S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013: the triangle is sheared until
 /// the ray runs along an axis, then the origin is placed by three edge functions that two neighbours compute alike.
 ///
-/// Deviations: no f64 fall-back for edge functions of exactly zero (both neighbours then report the hit, and the lower id
-/// wins); on a GPU the edge functions are Kahan's difference of products, because a contracted one leaks (see
-/// [`difference_of_products`]); the winding is not restored for rays along a negative axis, the test being two-sided.
+/// Deviations: the fall-back to f64 is not for edge functions of exactly zero (both neighbours then report the hit, and the
+/// lower id wins), but for triangles that are seen so much edge-on that f32 could say nothing (see `edge_on`), and on the
+/// CPU only; on a GPU the edge functions are Kahan's difference of products, which needs none, and because a contracted one
+/// leaks (see [`difference_of_products`]); the winding is not restored for rays along a negative axis, the test being
+/// two-sided.
 #[derive(Clone, Copy, Debug)]
 pub struct Watertight {
     /// The ray's origin with its axes rotated so that the largest direction component is last.
@@ -66,6 +70,13 @@ impl TriangleTest for Watertight {
         // Without branches: on a GPU each `&&` is one.
         let inside = ((weight_a >= 0.0) & (weight_b >= 0.0) & (weight_c >= 0.0))
             | ((weight_a <= 0.0) & (weight_b <= 0.0) & (weight_c <= 0.0));
+        #[cfg(not(target_arch = "spirv"))]
+        {
+            let largest = (c.x * b.y).abs().max((a.x * c.y).abs()).max((b.x * a.y).abs());
+            if inside & (determinant.abs() <= edge_on::EDGE_ON * largest) {
+                return edge_on::crossing([a, b, c]);
+            }
+        }
         let distance = weight_a * a.z + weight_b * b.z + weight_c * c.z;
         Crossing {
             crosses: inside & (determinant.abs() > f32::MIN_POSITIVE),

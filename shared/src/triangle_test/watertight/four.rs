@@ -1,9 +1,9 @@
 //! The watertight test of four triangles at once.
 
-use super::Watertight;
+use super::{Watertight, edge_on};
 use crate::triangle_test::Crossings;
 use core::arch::x86_64::*;
-use glam::Vec4;
+use glam::{Vec3, Vec4};
 
 /// For each axis, where in a corner's row its rotated components lie.
 const ROTATED: [[i32; 4]; 3] = [[1, 2, 0, 3], [2, 0, 1, 3], [0, 1, 2, 3]];
@@ -55,19 +55,40 @@ pub(super) unsafe fn crossings(test: &Watertight, [p, q, r, s]: [[*const Vec4; 3
             _mm_and_ps(_mm_cmple_ps(weight_a, zero), _mm_cmple_ps(weight_b, zero)),
             _mm_cmple_ps(weight_c, zero),
         );
-        let size = _mm_andnot_ps(_mm_set1_ps(-0.0), determinant);
+        let absolute = |x| _mm_andnot_ps(_mm_set1_ps(-0.0), x);
+        let size = absolute(determinant);
         let has_area = _mm_cmpgt_ps(size, _mm_set1_ps(f32::MIN_POSITIVE));
         let distance = _mm_add_ps(
             _mm_add_ps(_mm_mul_ps(weight_a, a.2), _mm_mul_ps(weight_b, b.2)),
             _mm_mul_ps(weight_c, c.2),
         );
+        let inside = _mm_or_ps(front, back);
         let mut crossings = Crossings {
-            crosses: _mm_movemask_ps(_mm_and_ps(_mm_or_ps(front, back), has_area)) as u32,
+            crosses: _mm_movemask_ps(_mm_and_ps(inside, has_area)) as u32,
             ..Crossings::default()
         };
         _mm_storeu_ps(crossings.t.as_mut_ptr(), _mm_mul_ps(distance, reciprocal));
         _mm_storeu_ps(crossings.u.as_mut_ptr(), _mm_mul_ps(weight_b, reciprocal));
         _mm_storeu_ps(crossings.v.as_mut_ptr(), _mm_mul_ps(weight_c, reciprocal));
+        let products = [(c.0, b.1), (a.0, c.1), (b.0, a.1)].map(|(x, y)| absolute(_mm_mul_ps(x, y)));
+        let largest = _mm_max_ps(_mm_max_ps(products[0], products[1]), products[2]);
+        let is_edge_on = _mm_cmple_ps(size, _mm_mul_ps(_mm_set1_ps(edge_on::EDGE_ON), largest));
+        let mut edge_on = _mm_movemask_ps(_mm_and_ps(inside, is_edge_on)) as u32;
+        while edge_on != 0 {
+            let lane = edge_on.trailing_zeros() as usize;
+            edge_on &= edge_on - 1;
+            let corner = |corner: (__m128, __m128, __m128)| {
+                let [x, y, z] = [corner.0, corner.1, corner.2].map(|x| {
+                    let mut lanes = [0.0; 4];
+                    _mm_storeu_ps(lanes.as_mut_ptr(), x);
+                    lanes[lane]
+                });
+                Vec3::new(x, y, z)
+            };
+            let crossing = edge_on::crossing([corner(a), corner(b), corner(c)]);
+            crossings.crosses = crossings.crosses & !(1 << lane) | u32::from(crossing.crosses) << lane;
+            (crossings.t[lane], crossings.u[lane], crossings.v[lane]) = (crossing.t, crossing.u, crossing.v);
+        }
         crossings
     }
 }
