@@ -109,6 +109,6 @@ pub fn white_light() -> Light {
         edge_u: Vec3::ZERO,
         samples_per_side: 1,
         edge_v: Vec3::ZERO,
-        reserved: 0,
+        range: 0.0,
     }
 }

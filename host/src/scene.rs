@@ -133,8 +133,9 @@ impl Scene {
         let has_normals = !mesh.normals.is_empty();
         let has_colors = !mesh.colors.is_empty();
         let is_indexed = parts.traversal.is_indexed();
-        // Normals of indexed triangles lie beside their corners.
-        let vertices = if (has_normals && !is_indexed) || has_colors {
+        // Normals of indexed triangles lie beside their corners, in 32 bits. What bends or bounces rays shows that rounding.
+        let is_exact = !is_indexed || model.materials.iter().any(bends_rays);
+        let vertices = if (has_normals && is_exact) || has_colors {
             (0..mesh.positions.len())
                 .into_par_iter()
                 .map(|i| Vertex {
@@ -366,6 +367,11 @@ impl Scene {
     pub fn radius(&self) -> f32 {
         (self.high - self.low).length() / 2.0
     }
+}
+
+/// Whether a picture shows where the normal of a surface is off by so little that no shading would.
+fn bends_rays(material: &Material) -> bool {
+    material.mirror != Vec3::ZERO || material.is_transmissive() || material.bump != NO_TEXTURE
 }
 
 /// The brightest colour of an environment.

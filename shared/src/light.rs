@@ -30,8 +30,9 @@ pub struct Light {
     pub samples_per_side: u32,
     /// Area: the other edge from the corner, scene units.
     pub edge_v: Vec3,
-    /// Fills the row.
-    pub reserved: u32,
+    /// 0: it has no end. Above: it fades out at this distance, scene units, by `1 - (distance / range)^4`, as glTF has it
+    /// (KHR_lights_punctual); what is farther off asks nothing about it. Not of directional ones.
+    pub range: f32,
 }
 
 const _: () = assert!(size_of::<Light>() == 64);
@@ -94,10 +95,14 @@ impl Light {
             let cosine = -normal.dot(direction) / direction.length();
             share = if cosine > 0.0 { cosine * spacing * spacing } else { 0.0 };
         }
+        let squared = direction.length_squared();
         if self.falloff_radius > 0.0 {
-            let squared = direction.length_squared();
             let least = self.falloff_radius * self.falloff_radius;
             share /= if squared > least { squared } else { least };
+        }
+        if self.range > 0.0 {
+            let ratio = squared / (self.range * self.range);
+            share *= if ratio < 1.0 { 1.0 - ratio * ratio } else { 0.0 };
         }
         let reach = reach(point, direction, extent);
         Incident {
@@ -136,6 +141,33 @@ mod tests {
         let near = light.incident(0, light.position, 1.0);
         assert_eq!(near.color.x, 12.0, "bounded near the light");
         assert_eq!(point().incident(0, Vec3::ZERO, 1.0).color.x, 3.0, "without falloff");
+    }
+
+    #[test]
+    fn light_fades_out_at_its_range() {
+        for falloff_radius in [0.0, 0.5] {
+            let endless = Light {
+                falloff_radius,
+                ..point()
+            };
+            let light = Light { range: 4.0, ..endless };
+            let arriving =
+                |light: &Light, distance: f32| light.incident(0, light.position - Vec3::X * distance, 1.0).color.x;
+            for (distance, part) in [
+                (0.0, 1.0),
+                (2.0, 0.9375),
+                (3.0, 0.68359375),
+                (4.0, 0.0),
+                (5.0, 0.0),
+                (1e20, 0.0),
+            ] {
+                let wanted = arriving(&endless, distance) * part;
+                assert!(
+                    (arriving(&light, distance) - wanted).abs() <= 1e-6 * wanted,
+                    "{distance}"
+                );
+            }
+        }
     }
 
     #[test]

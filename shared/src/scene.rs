@@ -67,7 +67,8 @@ impl Scene<'_> {
 /// What shading reads. On the GPU no array is empty; how many lights and planes there are, says the frame.
 #[derive(Clone, Copy)]
 pub struct Appearance<'a> {
-    /// What the triangles' corners carry; where triangles are indexed, of use for the colours alone.
+    /// What the triangles' corners carry; a single one where nothing is carried, or where triangles are indexed and the
+    /// normals beside their corners do.
     pub vertices: &'a [Vertex],
     /// Texture coordinates by vertex; a single one where no mesh has any.
     pub coordinates: &'a [Vec2],
@@ -95,19 +96,15 @@ pub struct World<'a> {
 }
 
 impl World<'_> {
-    /// What a vertex carries; its colour only if it is asked for.
+    /// What a vertex carries.
     #[inline(always)]
-    pub fn vertex(&self, index: u32, with_color: bool) -> Vertex {
-        if !self.scene.is_indexed() {
+    pub fn vertex(&self, index: u32) -> Vertex {
+        if !self.scene.is_indexed() | (self.appearance.vertices.len() > 1) {
             return load(self.appearance.vertices, index);
         }
         Vertex {
             normal: octahedral::direction(load(self.scene.triangles, index).w.to_bits()),
-            color: if with_color {
-                load(self.appearance.vertices, index).color
-            } else {
-                u32::MAX
-            },
+            color: u32::MAX,
         }
     }
 }

@@ -37,8 +37,8 @@ pub const NEGLIGIBLE: f32 = 1.0 / (1 << 16) as f32;
 /// that reaches it diffuse (Lambert) and specular: Phong's (1975), or with the vector half-way between light and viewer
 /// (J. F. Blinn, "Models of light reflection for computer synthesized pictures", SIGGRAPH 1977).
 ///
-/// A light of which less than [`NEGLIGIBLE`] would arrive at the eye sends no shadow ray. `traced` counts the shadow rays,
-/// and as cut what was left out.
+/// A light below the surface's horizon, out of whose range it is, or of which less than [`NEGLIGIBLE`] would arrive at the eye
+/// sends no shadow ray. `traced` counts the shadow rays, and as cut what was left out.
 ///
 /// Both sides of a triangle are lit alike: the normal is turned to the viewer. Without [`LIGHTS`] among its needs
 /// there is only the frame's light, which has no area.

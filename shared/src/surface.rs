@@ -165,9 +165,9 @@ fn on_triangle<const NEEDS: u32>(frame: &Frame, world: &World<'_>, ray: &Ray, hi
     let mut base = material.base;
     if smooth || colored {
         let corners = [
-            world.vertex(triangle.vertex_a, colored),
-            world.vertex(triangle.vertex_b, colored),
-            world.vertex(triangle.vertex_c, colored),
+            world.vertex(triangle.vertex_a),
+            world.vertex(triangle.vertex_b),
+            world.vertex(triangle.vertex_c),
         ];
         if smooth {
             front = interpolated_normal(&corners, hit, face);

@@ -63,7 +63,13 @@ fn all_parts_are_measured_and_right() {
         for combination in combinations {
             is_spread(&combination["build_milliseconds"]);
             let bytes = combination["bytes_per_triangle"].as_f64().unwrap();
-            assert!((48.0..1_000.0).contains(&bytes), "{bytes}");
+            // What the triangles take alone: three rows, or three words and half a row of a corner.
+            let least = if combination["parts"]["traversal"] == "compact" {
+                20.0
+            } else {
+                48.0
+            };
+            assert!((least..1_000.0).contains(&bytes), "{bytes}");
             for set in list(&combination["sets"]) {
                 is_right(combination, set);
             }

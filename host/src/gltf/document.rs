@@ -50,6 +50,7 @@ pub(super) struct Lights {
 pub(super) struct Light {
     pub(super) color: Option<[f64; 3]>,
     pub(super) intensity: Option<f64>,
+    pub(super) range: Option<f64>,
     #[serde(rename = "type")]
     pub(super) kind: String,
 }

@@ -29,6 +29,14 @@ pub(super) fn light(document: &Document, placed: &Placed, shift: DVec3, notices:
             wanted: "an intensity and colours of 0 and up",
         });
     }
+    let range = light.range.unwrap_or(0.0) as f32;
+    if light.range.is_some() && !(range > 0.0 && range.is_finite()) {
+        return Err(Fault::Value {
+            place: place.field("range"),
+            value: light.range.unwrap_or(0.0),
+            wanted: "a distance above 0",
+        });
+    }
     let base = Light { color, ..white_light() };
     Ok(match light.kind.as_str() {
         "directional" => Light {
@@ -50,6 +58,7 @@ pub(super) fn light(document: &Document, placed: &Placed, shift: DVec3, notices:
                 kind: POINT,
                 position: (placed.transform.w_axis.truncate() - shift).as_vec3(),
                 falloff_radius: RADIUS,
+                range,
                 ..base
             }
         }

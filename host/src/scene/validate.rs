@@ -169,7 +169,10 @@ fn check_texture(texture: &Texture, texels: usize) -> Result<(), InvalidModel> {
 fn check_light(light: &Light, is_placed: bool) -> Result<(), InvalidModel> {
     rule(light.kind <= AREA, || format!("there is no kind {}", light.kind))?;
     rule(
-        light.position.is_finite() && light.color.is_finite() && light.falloff_radius.is_finite(),
+        light.position.is_finite()
+            && light.color.is_finite()
+            && light.falloff_radius.is_finite()
+            && light.range.is_finite(),
         || "it has numbers that are not finite".into(),
     )?;
     if light.kind == DIRECTIONAL {

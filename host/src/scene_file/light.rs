@@ -38,6 +38,8 @@ pub struct Light {
     pub falloff: Option<Falloff>,
     /// With falloff: nearer than this the light increases no more, scene units. Default: 0.001.
     pub radius: Option<Length>,
+    /// Point and area: it fades out at this distance, scene units. Default: it has no end.
+    pub range: Option<Length>,
 }
 
 /// What shines.
@@ -91,6 +93,7 @@ impl Light {
                 Some(Falloff::InverseSquare) => self.radius.map_or(1e-3, |radius| radius.0),
                 _ => 0.0,
             },
+            range: self.range.map_or(0.0, |range| range.0),
             ..white_light()
         };
         match self.kind {
@@ -139,6 +142,7 @@ impl Light {
             ("edge_v", self.edge_v.is_some(), is_area),
             ("samples_per_side", self.samples_per_side.is_some(), is_area),
             ("falloff", self.falloff.is_some(), !is_directional),
+            ("range", self.range.is_some(), !is_directional),
         ] {
             if is_there && !has_meaning {
                 return Err(Fault::new(&place.key(key), Reason::Inapplicable(whose)));

@@ -4,6 +4,7 @@
 #![cfg(test)]
 
 mod absorption;
+mod culling;
 mod depth;
 mod falloff;
 mod furnace;

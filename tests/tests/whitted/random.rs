@@ -142,7 +142,7 @@ fn light(rng: &mut Rng) -> Light {
         edge_u: pick([vector(rng), vector(rng) * 1e-6], rng),
         samples_per_side: rng.u32(1..3),
         edge_v: vector(rng),
-        reserved: 0,
+        range: pick([0.0, 0.5, 20.0], rng),
     }
 }
 

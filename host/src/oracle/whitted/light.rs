@@ -17,6 +17,7 @@ pub(super) struct Lamp {
     color: DVec3,
     /// Least distance that counts, where light falls off with its square.
     falloff: Option<f64>,
+    range: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -73,6 +74,7 @@ impl Lamp {
             },
             color: light.color.as_dvec3(),
             falloff: (light.falloff_radius > 0.0).then_some(f64::from(light.falloff_radius)),
+            range: (light.range > 0.0).then_some(f64::from(light.range)),
         }
     }
 
@@ -110,6 +112,9 @@ impl Lamp {
         let distance = (place - point).length();
         if let Some(least) = self.falloff {
             part /= distance.max(least).powi(2);
+        }
+        if let Some(range) = self.range {
+            part *= (1.0 - (distance / range).powi(4)).max(0.0);
         }
         Incident {
             direction: (place - point).normalize_or_zero(),
