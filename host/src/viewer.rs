@@ -71,7 +71,7 @@ use player::Player;
 use script::Script;
 use std::panic;
 use std::path::PathBuf;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use winit::event_loop::EventLoop;
 
 /// What the window opens with.
@@ -92,6 +92,8 @@ pub struct ViewerOptions {
     /// The file of the kernel to run in the place of the one that is part of the program; it is read again when it is
     /// saved.
     pub kernel: Option<PathBuf>,
+    /// How long a picture may take while something moves.
+    pub target: Duration,
     /// A script to play; the window closes at its end.
     pub script: Option<PathBuf>,
     /// The folder for pictures that are saved by key.

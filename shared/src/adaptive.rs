@@ -41,7 +41,9 @@ const STEP: f32 = 0.02;
 const EVEN: f32 = 4.0;
 /// Where no edge is known, a pixel may be off by this part of the bend of the colours: of a texture's edge by half, of a smooth
 /// surface by a 24th, which there are many of.
-const BENT: f32 = 1.0;
+const BENT: f32 = 1.5;
+/// How much of a pixel four samples span along each axis: so much of a slope's step to the next pixel is between them.
+const SPAN: f32 = 0.75;
 
 /// What is known of a pixel.
 #[repr(C)]
@@ -301,17 +303,12 @@ fn refined(frame: &Frame, known: &Known<'_>, pixel: UVec2) -> u32 {
     if level >= most {
         return UNKNOWN;
     }
-    if level > SINGLE {
-        return if own.range() > allowed(frame, level) {
-            level + 1
-        } else {
-            UNKNOWN
-        };
-    }
     let color = known.color(frame, index);
     let normal = own.normal();
     let mut is_edge = false;
+    let mut is_reached = false;
     let mut contrast = 0.0;
+    let mut slope = 0.0;
     let mut bend = 0.0;
     let mut axis = 0;
     while axis < 2 {
@@ -325,6 +322,7 @@ fn refined(frame: &Frame, known: &Known<'_>, pixel: UVec2) -> u32 {
         let on = if place + 1 < side { pixel + step } else { pixel };
         let mut bent = -2.0 * color;
         let mut nearness = -2.0 * own.nearness;
+        let mut steepest = 0.0;
         let mut i = 0;
         while i < 2 {
             let other = if i == 0 { back } else { on };
@@ -334,18 +332,31 @@ fn refined(frame: &Frame, known: &Known<'_>, pixel: UVec2) -> u32 {
             let beside = known.color(frame, place);
             is_edge |= mark.seen != own.seen;
             is_edge |= (own.nearness != 0.0) & (mark.nearness != 0.0) & (mark.normal().dot(normal) < ALIKE);
+            let differs = max_component((beside - color).abs());
             // A neighbour that turned out to see several things: what it sees may reach over here.
-            is_edge |= (mark.level() > SINGLE) & (mark.range() > 2.0 * frame.tolerance);
-            contrast = greater(contrast, max_component((beside - color).abs()));
+            is_reached |= (mark.level() > SINGLE) & (mark.range() > 2.0 * frame.tolerance + SPAN * differs);
+            contrast = greater(contrast, differs);
+            steepest = greater(steepest, differs);
             bent += beside;
             nearness += mark.nearness;
         }
+        slope += steepest;
         // At the picture's border there is no bend to be seen.
         if (place > 0) & (place + 1 < side) {
             bend = greater(bend, max_component(bent.abs()));
             is_edge |= nearness.abs() > STEP * own.nearness;
         }
     }
+    if level > SINGLE {
+        // What a slope makes of the samples is nothing that more of them would find.
+        let range = own.range() - if is_edge { 0.0 } else { SPAN * slope };
+        return if range > allowed(frame, level) {
+            level + 1
+        } else {
+            UNKNOWN
+        };
+    }
+    is_edge |= is_reached;
     let height = if is_edge { contrast } else { 2.0 * BENT * bend };
     let mut wanted = SINGLE;
     while (wanted < most) & (height > allowed(frame, wanted)) {

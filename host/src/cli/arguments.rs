@@ -95,6 +95,10 @@ pub struct ViewArguments {
     /// Size of the window's picture in pixels [default: as the scene says, else 1280x968].
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
+    /// How long a picture may take while the camera or the light moves, milliseconds, 5 to 1000: resolution follows it, down to
+    /// an eighth of width and height, and so do samples.
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(5..=1000))]
+    pub target_ms: u32,
     /// Feed the window from a file instead of a person; docs/viewer.md describes the format.
     #[arg(long, value_name = "FILE")]
     pub script: Option<PathBuf>,

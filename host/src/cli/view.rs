@@ -5,6 +5,7 @@ use super::arguments::{FileArguments, ViewArguments};
 use super::render::render;
 use oktant::viewer::{Look, ViewerError, ViewerOptions};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// The picture that stands in for the window where there is no display.
 const PICTURE: &str = "oktant.png";
@@ -20,6 +21,7 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
         backend: arguments.engine.choice(),
         module: arguments.engine.module(),
         kernel: arguments.engine.kernel_file()?.map(PathBuf::from),
+        target: Duration::from_millis(u64::from(arguments.target_ms)),
         script: arguments.script.clone(),
         pictures: PathBuf::from("."),
     };

@@ -55,6 +55,8 @@ pub struct Application {
     pub(super) saving: Option<SaveProgress>,
     /// How fast the CPU renders the scene, and the GPU.
     pub(super) paces: [Paces; 2],
+    /// How long a draft may take.
+    pub(super) target: Duration,
     /// How the last picture was simplified that was begun.
     pub(super) last_draft: Draft,
     pub(super) figures: Figures,
@@ -123,6 +125,7 @@ impl Application {
             saves: VecDeque::new(),
             saving: None,
             paces: [Paces::guessed(true); 2],
+            target: options.target,
             last_draft: Draft::FINE,
             figures: Figures::default(),
             comparison: Comparison::default(),

@@ -6,8 +6,8 @@ use crate::stereo::StereoMode;
 use crate::view::View;
 use std::time::Duration;
 
-/// A picture that takes no longer than this keeps up with a hand that drags.
-const FLUID: Duration = Duration::from_millis(60);
+/// What part of a draft's time may go into more samples than one: so many times as often are pictures shown then.
+const SPARE: u32 = 4;
 /// A pixel of the coarsest draft covers a square with this edge, pixels of the window.
 const COARSEST: u32 = 8;
 /// Reflections and refractions that a draft follows where the coarsest one would not be there in time with all of them:
@@ -21,6 +21,8 @@ pub struct Draft {
     pub edge: u32,
     /// Whether rays are followed less far.
     pub is_shallow: bool,
+    /// Samples of each of its pixels.
+    pub samples: Samples,
 }
 
 impl Draft {
@@ -28,12 +30,13 @@ impl Draft {
     pub const FINE: Draft = Draft {
         edge: 1,
         is_shallow: false,
+        samples: Samples::One,
     };
 
-    /// The view with one sample a pixel, simplified.
+    /// The view, simplified.
     pub fn simplified(&self, view: &View) -> View {
         let mut view = View {
-            samples: Samples::One,
+            samples: self.samples,
             adaptive: false,
             ..*view
         };
@@ -77,20 +80,34 @@ impl Paces {
         pace.measured(rays, milliseconds);
     }
 
-    /// The best draft that is there in time.
-    pub fn draft(&self, view: &View, size: [u32; 2]) -> Draft {
-        let rays_per_pixel = view.stereo.map_or(1, |stereo| stereo.mode.rays_per_sample());
+    /// The best draft that is there within a time: as fine as it can be, then with as many samples as are wanted, or as are
+    /// there in a quarter of the time.
+    pub fn draft(&self, view: &View, size: [u32; 2], target: Duration) -> Draft {
+        let rays_per_sample = view.stereo.map_or(1, |stereo| stereo.mode.rays_per_sample());
+        let time = |pace: &Pace, draft: &Draft| {
+            let [width, height] = draft.size(size).map(u64::from);
+            pace.time(width * height * u64::from(rays_per_sample * draft.samples.count()))
+        };
         let in_time = |pace: &Pace, is_shallow| {
-            (1..=COARSEST).map(|edge| Draft { edge, is_shallow }).find(|draft| {
-                let [width, height] = draft.size(size).map(u64::from);
-                pace.time(width * height * u64::from(rays_per_pixel)) <= FLUID
-            })
+            let drafts = (1..=COARSEST).map(|edge| Draft {
+                edge,
+                is_shallow,
+                ..Draft::FINE
+            });
+            drafts.into_iter().find(|draft| time(pace, draft) <= target)
         };
         let coarsest = Draft {
             edge: COARSEST,
             is_shallow: view.depth > SHALLOW,
+            ..Draft::FINE
         };
-        in_time(&self.full, false)
+        let smooth = || {
+            let drafts = Samples::ALL.map(|samples| Draft { samples, ..Draft::FINE });
+            let mut finer = drafts.into_iter().skip(1).rev();
+            finer.find(|draft| draft.samples <= view.samples && time(&self.full, draft) <= target / SPARE)
+        };
+        smooth()
+            .or_else(|| in_time(&self.full, false))
             .or_else(|| in_time(&self.shallow, true).filter(|_| coarsest.is_shallow))
             .unwrap_or(coarsest)
     }
@@ -102,6 +119,7 @@ mod tests {
     use crate::stereo::Stereo;
 
     const SIZE: [u32; 2] = [1280, 968];
+    const FLUID: Duration = Duration::from_millis(60);
 
     #[test]
     fn slower_is_coarser_and_at_last_shallow() {
@@ -110,7 +128,7 @@ mod tests {
         for nanoseconds in [1, 40, 100, 200, 400, 1000, 3000] {
             let mut paces = Paces::guessed(true);
             paces.measured(false, 1_000_000, f64::from(nanoseconds));
-            let draft = paces.draft(&view, SIZE);
+            let draft = paces.draft(&view, SIZE, FLUID);
             assert!(draft.edge >= last.edge && !draft.is_shallow, "{nanoseconds} ns a ray");
             let [width, height] = draft.size(SIZE);
             assert!(width * height * nanoseconds <= 60_000_000, "{nanoseconds} ns a ray");
@@ -119,15 +137,39 @@ mod tests {
         assert_eq!(last.edge, COARSEST);
         let mut paces = Paces::guessed(true);
         paces.measured(false, 1_000_000, 9000.0);
-        assert!(paces.draft(&view, SIZE).is_shallow);
+        assert!(paces.draft(&view, SIZE, FLUID).is_shallow);
         paces.measured(true, 1_000_000, 800.0);
-        let draft = paces.draft(&view, SIZE);
+        let draft = paces.draft(&view, SIZE, FLUID);
         assert!(draft.is_shallow && draft.edge < COARSEST, "{draft:?}");
         assert_eq!(draft.simplified(&view).depth, SHALLOW);
         let level = View { depth: 1, ..view };
-        let draft = paces.draft(&level, SIZE);
+        let draft = paces.draft(&level, SIZE, FLUID);
         assert!(!draft.is_shallow, "there is nothing to leave out");
         assert_eq!(draft.simplified(&level).depth, 1);
+    }
+
+    #[test]
+    fn drafts_follow_the_time_that_they_may_take() {
+        let view = View {
+            samples: Samples::Sixteen,
+            ..View::default()
+        };
+        let mut paces = Paces::guessed(true);
+        // A sample at all pixels takes 12.4 ms.
+        paces.measured(false, 1_000_000, 10.0);
+        let draft = |milliseconds| {
+            let draft = paces.draft(&view, SIZE, Duration::from_millis(milliseconds));
+            (draft.edge, draft.samples)
+        };
+        assert_eq!(draft(1), (4, Samples::One));
+        assert_eq!(draft(4), (2, Samples::One));
+        assert_eq!(draft(13), (1, Samples::One));
+        assert_eq!(draft(190), (1, Samples::One));
+        assert_eq!(draft(200), (1, Samples::Four));
+        assert_eq!(draft(800), (1, Samples::Sixteen));
+        assert_eq!(draft(60_000), (1, Samples::Sixteen), "no more than are wanted");
+        paces.measured(false, 1_000_000, 1e6);
+        assert_eq!(paces.draft(&view, SIZE, FLUID).edge, COARSEST, "never below the floor");
     }
 
     #[test]
@@ -140,7 +182,7 @@ mod tests {
                 stereo: Some(Stereo::new(mode)),
                 ..View::default()
             };
-            paces.draft(&view, SIZE).edge
+            paces.draft(&view, SIZE, FLUID).edge
         };
         assert_eq!([StereoMode::Rows, StereoMode::SideBySide].map(edge), [1, 1]);
         assert_eq!([StereoMode::Sequential, StereoMode::Anaglyph].map(edge), [2, 2]);
@@ -153,10 +195,7 @@ mod tests {
             ..View::default()
         };
         for (edge, keeps) in [(1, true), (2, false)] {
-            let draft = Draft {
-                edge,
-                is_shallow: false,
-            };
+            let draft = Draft { edge, ..Draft::FINE };
             assert_eq!(draft.simplified(&view).stereo.is_some(), keeps);
             assert_eq!(draft.size([1281, 3]), [1281_u32.div_ceil(edge), 3_u32.div_ceil(edge)]);
         }
