@@ -45,7 +45,7 @@ pub struct Scene {
     pub corners: Vec<Vec4>,
     /// The triangles' ids by slot.
     pub ids: Vec<u32>,
-    /// Normals and colours by vertex; a single one where the mesh has neither.
+    /// Normals and colours by vertex; a single one where the mesh has neither, or normals of 32 bits beside its corners.
     pub vertices: Vec<Vertex>,
     /// Texture coordinates by vertex; a single one where the mesh has none.
     pub coordinates: Vec<Vec2>,
@@ -75,7 +75,7 @@ pub struct Scene {
     pub brightest_around: Vec3,
     /// What it needs of a kernel: bits of [`oktant_shared::variant`].
     pub needs: u32,
-    /// The variant of the kernel's body that renders it with the default parts.
+    /// The variant of the kernel's body that renders it with the default parts, or on the CPU with the compact ones.
     pub variant: Variant,
     /// What is looked at.
     pub focus: Focus,

@@ -242,22 +242,17 @@ fn what_is_cast_with_must_be_there() {
         let run = cast(more);
         assert_eq!(run.code, Some(0), "{}", run.error);
     };
-    let missing = || {
-        assert_refused(
-            &cast("--triangle=plucker"),
-            1,
-            &["no entry point `closest_octants_plucker`"],
-        );
-    };
+    let missing = |words: &[&str]| assert_refused(&cast("--triangle=plucker"), 1, words);
+    let name = "no entry point `closest_octants_plucker`";
     succeeds("--triangle=watertight");
-    missing();
+    missing(&[name, "there is no parts", "copy"]);
     let good = CompiledKernel::parts();
     good.write(&parts);
     succeeds("--triangle=plucker");
     good.renamed("closest_octants_plucker", "closest_octants_x")
         .write(&parts);
     succeeds("--triangle=watertight");
-    missing();
+    missing(&[name, "add it"]);
     fs::write(parts.join("oktant.spv"), "no module").unwrap();
     assert_refused(&cast("--triangle=watertight"), 1, &["parts", "not a SPIR-V module"]);
 }

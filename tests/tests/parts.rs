@@ -3,16 +3,19 @@
 
 #![cfg(test)]
 
+use glam::vec3;
 use oktant::backend::cpu::Cpu;
 use oktant::backend::gpu::{Gpu, GpuBackend, GpuOptions};
 use oktant::backend::{Backend, Query};
 use oktant::media::media_at;
+use oktant::mesh_source::MeshSource;
 use oktant::progress::silent;
 use oktant::scene::Scene;
 use oktant::source::Source;
 use oktant::structure::StructureOptions;
 use oktant_shared::medium::Media;
 use oktant_shared::parts::{BoxKind, Parts, TraversalKind, TriangleKind};
+use oktant_shared::ray::Ray;
 use oktant_tests::ray_classes::RayClass;
 use oktant_tests::subject::Subject;
 use oktant_tests::tally::Tally;
@@ -143,6 +146,45 @@ fn every_combination_equals_the_oracle_on_the_gpu() {
         assert_eq!(sums.wrong, 0, "{parts}");
         assert!(sums.overlooked <= bound, "{parts}: {} overlooked", sums.overlooked);
     }
+}
+
+/// Oracle: the CPU. What takes long is cast in pieces of 2^18 rays, and this is a little more.
+#[test]
+#[ignore = "needs a Vulkan driver"]
+fn arrays_of_several_pieces_are_cast_whole() {
+    let gpu = Gpu::open(&GpuOptions {
+        software: true,
+        ..GpuOptions::default()
+    });
+    let gpu = Arc::new(gpu.expect("a Vulkan driver is installed"));
+    let mesh = MeshSource::Balls.load(&silent).unwrap();
+    let scene = Arc::new(Scene::new(&mesh, &StructureOptions::default(), &silent).unwrap());
+    let mut random = fastrand::Rng::with_seed(3);
+    let (center, radius) = (scene.center(), scene.radius());
+    let mut place = |size: f32| {
+        let mut coordinate = || (random.f32() * 2.0 - 1.0) * size;
+        center + vec3(coordinate(), coordinate(), coordinate())
+    };
+    let rays: Vec<Ray> = (0..(1 << 18) + 1_000)
+        .map(|_| {
+            let origin = place(3.0 * radius);
+            Ray::new(origin, place(0.5 * radius) - origin)
+        })
+        .collect();
+    let parts = Parts::default();
+    let wanted = Cpu::new(scene.clone()).cast(parts, Query::Closest, &rays).unwrap();
+    let mut backend = GpuBackend::new(gpu, &scene).unwrap();
+    let found = backend.cast(parts, Query::Closest, &rays).unwrap();
+    assert_eq!(found.len(), rays.len());
+    let others = |range: std::ops::Range<usize>| {
+        let pairs = wanted[range.clone()].iter().zip(&found[range]);
+        pairs.filter(|(a, b)| a.triangle != b.triangle).count()
+    };
+    let hits = wanted.iter().filter(|hit| hit.is_hit()).count();
+    println!("{hits} hits, {} on other triangles", others(0..rays.len()));
+    assert!(hits > rays.len() / 4, "{hits}");
+    assert!(others(0..1 << 18) < 30);
+    assert_eq!(others(1 << 18..rays.len()), 0);
 }
 
 /// Oracle: the default structure. Some of the points are inside of the glass.

@@ -169,6 +169,7 @@ color = "#ff8040"
 intensity = 2
 falloff = "inverse-square"
 radius = 0.1
+range = 9
 "##;
 
 fn everything() -> Setting {

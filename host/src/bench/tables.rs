@@ -30,7 +30,10 @@ pub fn tables(report: &Report, style: Style) -> String {
         text.push('\n');
     };
     let [width, height] = report.size;
-    let measured = format!("{width} x {height} pixels; medians of {}.", report.repeats);
+    let measured = format!(
+        "{width} x {height} pixels; medians of {}, of fewer where one takes long.",
+        report.repeats
+    );
     if let Some(thesis) = &report.thesis {
         let remark = format!(
             "{measured} Kernel time of a frame with one light, a shadow ray and no secondary rays. The thesis's bunny has \

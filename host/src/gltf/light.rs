@@ -29,14 +29,6 @@ pub(super) fn light(document: &Document, placed: &Placed, shift: DVec3, notices:
             wanted: "an intensity and colours of 0 and up",
         });
     }
-    let range = light.range.unwrap_or(0.0) as f32;
-    if light.range.is_some() && !(range > 0.0 && range.is_finite()) {
-        return Err(Fault::Value {
-            place: place.field("range"),
-            value: light.range.unwrap_or(0.0),
-            wanted: "a distance above 0",
-        });
-    }
     let base = Light { color, ..white_light() };
     Ok(match light.kind.as_str() {
         "directional" => Light {
@@ -54,6 +46,20 @@ pub(super) fn light(document: &Document, placed: &Placed, shift: DVec3, notices:
                 "spot" => notices.add("the cones of spot lights"),
                 _ => notices.add("lights of kinds that are not known, which are points here"),
             }
+            let range = match light.range {
+                None => 0.0,
+                Some(value) if value > 0.0 => {
+                    let range = (value as f32).max(f32::MIN_POSITIVE);
+                    if range.is_finite() { range } else { 0.0 }
+                }
+                Some(value) => {
+                    return Err(Fault::Value {
+                        place: place.field("range"),
+                        value,
+                        wanted: "a distance above 0",
+                    });
+                }
+            };
             Light {
                 kind: POINT,
                 position: (placed.transform.w_axis.truncate() - shift).as_vec3(),

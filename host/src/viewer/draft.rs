@@ -33,6 +33,11 @@ impl Draft {
         samples: Samples::One,
     };
 
+    /// Whether it shows less than one sample of all pixels would.
+    pub fn is_coarse(&self) -> bool {
+        self.edge > 1 || self.is_shallow
+    }
+
     /// The view, simplified.
     pub fn simplified(&self, view: &View) -> View {
         let mut view = View {
@@ -167,6 +172,14 @@ mod tests {
         assert_eq!(draft(190), (1, Samples::One));
         assert_eq!(draft(200), (1, Samples::Four));
         assert_eq!(draft(800), (1, Samples::Sixteen));
+        for (milliseconds, is_coarse) in [(4, true), (13, false), (200, false)] {
+            let draft = paces.draft(&view, SIZE, Duration::from_millis(milliseconds));
+            assert_eq!(
+                draft.is_coarse(),
+                is_coarse,
+                "{milliseconds}: what comes next is no worse"
+            );
+        }
         assert_eq!(draft(60_000), (1, Samples::Sixteen), "no more than are wanted");
         paces.measured(false, 1_000_000, 1e6);
         assert_eq!(paces.draft(&view, SIZE, FLUID).edge, COARSEST, "never below the floor");

@@ -8,7 +8,7 @@ const REST: Duration = Duration::from_millis(100);
 /// How good a picture is to become.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Quality {
-    /// One sample a pixel, with fewer pixels where that is needed to be quick.
+    /// What is there in time: with fewer pixels where that is needed, with more samples where there is time to spare.
     Draft,
     /// As wanted, in passes.
     Final,

@@ -45,7 +45,7 @@ impl Application {
                 let effort = match quality {
                     Quality::Draft => Effort::Draft(draft),
                     Quality::Final => Effort::Full {
-                        preview: self.last_draft != Draft::FINE,
+                        preview: self.last_draft.is_coarse(),
                     },
                 };
                 self.last_draft = draft;

@@ -236,6 +236,10 @@ fn numbers_in_gltf_files() {
         &["KHR_lights_punctual.lights[0].intensity is -1"],
     );
     assert_floor_refused(
+        |json| json["extensions"]["KHR_lights_punctual"]["lights"][0]["range"] = 0.into(),
+        &["KHR_lights_punctual.lights[0].range is 0", "above 0"],
+    );
+    assert_floor_refused(
         |json| {
             json["cameras"] = json!([{"type": "perspective", "perspective": {"yfov": 0.0, "znear": 1.0}}]);
             json["nodes"][0]["camera"] = 0.into();

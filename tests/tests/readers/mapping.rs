@@ -89,6 +89,17 @@ fn a_point_light_lights_a_matt_floor() {
     }
 }
 
+/// Oracle: as above, times 1 - (distance / range)^4 (KHR_lights_punctual). A range beyond f32 is none.
+#[test]
+fn a_point_light_fades_out_at_its_range() {
+    for (range, part) in [(2.5, 1.0 - 0.8_f64.powi(4)), (2.0, 0.0), (1.0, 0.0), (1e300, 1.0)] {
+        let light = json!({"type": "point", "intensity": 7.0, "range": range});
+        let glb = matt([0.5; 3]).light(light, json!({"translation": [0.25, 2.0, 0.5]}));
+        let wanted = DVec3::splat(0.5 * 7.0 / 4.0 / PI * part);
+        assert_near(seen(&glb, 0.0, vec3(0.1, 3.0, 0.2), vec3(0.25, 0.0, 0.5)), wanted);
+    }
+}
+
 /// Oracle: as above, with E = lux times the cosine. Turned by 60 degrees, it comes from 60 degrees above the horizon.
 #[test]
 fn a_directional_light_lights_a_matt_floor() {

@@ -142,12 +142,13 @@ fn cameras_and_lights_are_where_the_file_has_them() {
         assert_eq!(point.light.color, vec3(3.0, 1.5, 0.0));
         let area = frame(
             "kind = 'area'\ncorner = [1, 5, 2]\nedge_u = [2, 0, 0]\nedge_v = [0, 0, 3]\nsamples_per_side = 3\n\
-             falloff = 'inverse-square'\nradius = 0.2",
+             falloff = 'inverse-square'\nradius = 0.2\nrange = 7.5",
         );
         assert_eq!(
             (area.light.kind, area.light.samples_per_side, area.light.falloff_radius),
             (AREA, 3, 0.2)
         );
+        assert_eq!((point.light.range, area.light.range), (0.0, 7.5));
         assert!(area.light.position.distance(vec3(1.0, 5.0, 2.0)) < 1e-5);
         let sun = frame("kind = 'directional'\ndirection = [1, -2, 2]");
         assert_eq!(sun.light.kind, DIRECTIONAL);

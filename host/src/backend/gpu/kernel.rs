@@ -42,6 +42,12 @@ pub(super) struct KernelModule {
     pub entry_points: Vec<KernelEntryPoint>,
 }
 
+impl KernelModule {
+    fn has(&self, entry: &str) -> bool {
+        self.entry_points.iter().any(|point| point.name == entry)
+    }
+}
+
 /// A compiled kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Kernel {
@@ -123,19 +129,20 @@ impl Kernel {
     /// The module for other parts, where this entry point is in that one.
     pub(super) fn parts_with(&self, entry: &str) -> Option<&KernelModule> {
         let parts = self.parts.as_ref()?;
-        parts
-            .entry_points
-            .iter()
-            .any(|point| point.name == entry)
-            .then_some(parts)
+        parts.has(entry).then_some(parts)
     }
 
     /// Whether it has this entry point, in workgroups of the size that the host launches.
     ///
     /// # Errors
-    /// [`KernelError::NoEntryPoint`] and [`KernelError::Workgroup`].
+    /// [`KernelError::NoEntryPoint`], [`KernelError::NoParts`] and [`KernelError::Workgroup`].
     pub(super) fn check(&self, entry: &'static str) -> Result<(), KernelError> {
         let path = self.path.clone().unwrap_or_default();
+        if self.parts.is_none() && !ALWAYS_NEEDED.contains(&entry) && !self.module.has(entry) {
+            let parts = beside(&path);
+            return Err(KernelError::NoParts { path, parts, entry });
+        }
+        let path = self.parts_with(entry).map_or(path.clone(), |_| beside(&path));
         let mut entry_points = self
             .parts
             .iter()

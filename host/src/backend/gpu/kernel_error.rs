@@ -97,6 +97,20 @@ pub enum KernelError {
         /// What is missing.
         entry: &'static str,
     },
+    /// Something that is to be launched is not there, and neither is the module that should have it.
+    #[error(
+        "{}: this kernel has no entry point `{entry}`, and there is no {}; copy that module there, with its manifest, from where \
+         the builder wrote it.",
+        path.display(), parts.display()
+    )]
+    NoParts {
+        /// The module.
+        path: PathBuf,
+        /// Where the module for other parts would be.
+        parts: PathBuf,
+        /// What is missing.
+        entry: &'static str,
+    },
     /// It is launched in workgroups of another size.
     #[error(
         "{}: workgroups of the entry point `{entry}` have {} invocations here, and oktant launches {}; change its threads.",
