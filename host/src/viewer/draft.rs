@@ -181,7 +181,9 @@ mod tests {
             );
         }
         assert_eq!(draft(60_000), (1, Samples::Sixteen), "no more than are wanted");
-        paces.measured(false, 1_000_000, 1e6);
+        for is_shallow in [false, true] {
+            paces.measured(is_shallow, 1_000_000, 1e6);
+        }
         assert_eq!(paces.draft(&view, SIZE, FLUID).edge, COARSEST, "never below the floor");
     }
 
