@@ -1,7 +1,8 @@
 //! Scenes that a test puts together by hand, and rays and pictures of them.
 
+use crate::meshes::block;
 use bytemuck::Zeroable;
-use glam::{DVec3, Vec2, Vec3, Vec4};
+use glam::{DVec3, Vec2, Vec3, Vec4, vec3};
 use oktant::backend::Backend;
 use oktant::backend::cpu::Cpu;
 use oktant::media::media_at;
@@ -113,6 +114,19 @@ impl Default for Stage {
 }
 
 impl Stage {
+    /// A shiny floor without end, and a block over it.
+    pub fn with_block() -> Self {
+        let mut stage = Stage::default();
+        let shiny = stage.material(Material {
+            specular: Vec3::splat(0.3),
+            exponent: 12.0,
+            ..matte(vec3(0.9, 0.6, 0.3))
+        });
+        stage.plane(Vec3::ZERO, Vec3::Y, shiny);
+        stage.mesh(&block(vec3(-0.6, 0.1, -0.5), vec3(0.5, 1.3, 0.7)), shiny);
+        stage
+    }
+
     /// Adds a material; its index.
     pub fn material(&mut self, material: Material) -> u32 {
         self.model.materials.push(material);

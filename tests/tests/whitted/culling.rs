@@ -5,21 +5,12 @@ use oktant::picture::Picture;
 use oktant::scene::Scene;
 use oktant_shared::frame::Frame;
 use oktant_shared::light::{AREA, Light};
-use oktant_shared::material::Material;
-use oktant_tests::meshes::block;
 use oktant_tests::stage::{Stage, camera, directional_light, frame, matte, picture, point_light};
 use std::sync::Arc;
 
 /// A block on a long floor under two lights, and a third one beside them.
 fn scene(beside: Option<Light>) -> (Arc<Scene>, Frame) {
-    let mut stage = Stage::default();
-    let shiny = stage.material(Material {
-        specular: Vec3::splat(0.3),
-        exponent: 12.0,
-        ..matte(vec3(0.9, 0.6, 0.3))
-    });
-    stage.plane(Vec3::ZERO, Vec3::Y, shiny);
-    stage.mesh(&block(vec3(-0.6, 0.1, -0.5), vec3(0.5, 1.3, 0.7)), shiny);
+    let mut stage = Stage::with_block();
     let lights = [
         Light {
             falloff_radius: 0.1,

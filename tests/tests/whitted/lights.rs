@@ -4,23 +4,14 @@ use glam::{Vec3, vec3};
 use oktant::scene::Scene;
 use oktant_shared::frame::Frame;
 use oktant_shared::light::{AREA, Light};
-use oktant_shared::material::Material;
 use oktant_shared::ray::Ray;
 use oktant_shared::traversal::{Standard, Traversal};
-use oktant_tests::meshes::block;
-use oktant_tests::stage::{Stage, camera, directional_light, frame, matte, point_light, see};
+use oktant_tests::stage::{Stage, camera, directional_light, frame, point_light, see};
 use std::sync::Arc;
 
 /// A shiny floor with a block on it.
 fn scene(lights: Vec<Light>) -> (Arc<Scene>, Frame) {
-    let mut stage = Stage::default();
-    let shiny = stage.material(Material {
-        specular: Vec3::splat(0.3),
-        exponent: 12.0,
-        ..matte(vec3(0.9, 0.6, 0.3))
-    });
-    stage.plane(Vec3::ZERO, Vec3::Y, shiny);
-    stage.mesh(&block(vec3(-0.6, 0.1, -0.5), vec3(0.5, 1.3, 0.7)), shiny);
+    let mut stage = Stage::with_block();
     stage.model.lights = lights;
     let scene = stage.build();
     let frame = frame(&scene, camera(vec3(2.0, 5.0, 6.0), Vec3::ZERO, 40.0, 8, 8));

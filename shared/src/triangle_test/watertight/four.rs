@@ -70,8 +70,8 @@ pub(super) unsafe fn crossings(test: &Watertight, [p, q, r, s]: [[*const Vec4; 3
         _mm_storeu_ps(crossings.t.as_mut_ptr(), _mm_mul_ps(distance, reciprocal));
         _mm_storeu_ps(crossings.u.as_mut_ptr(), _mm_mul_ps(weight_b, reciprocal));
         _mm_storeu_ps(crossings.v.as_mut_ptr(), _mm_mul_ps(weight_c, reciprocal));
-        let products = [(c.0, b.1), (a.0, c.1), (b.0, a.1)].map(|(x, y)| absolute(_mm_mul_ps(x, y)));
-        let largest = _mm_max_ps(_mm_max_ps(products[0], products[1]), products[2]);
+        let product = |x, y| absolute(_mm_mul_ps(x, y));
+        let largest = _mm_max_ps(_mm_max_ps(product(c.0, b.1), product(a.0, c.1)), product(b.0, a.1));
         let is_edge_on = _mm_cmple_ps(size, _mm_mul_ps(_mm_set1_ps(edge_on::EDGE_ON), largest));
         let mut edge_on = _mm_movemask_ps(_mm_and_ps(inside, is_edge_on)) as u32;
         while edge_on != 0 {
