@@ -15,6 +15,7 @@ mod render;
 mod scene_source;
 mod stability;
 mod trace;
+mod tune;
 mod view;
 
 use arguments::{Arguments, Command, ViewArguments};
@@ -48,6 +49,7 @@ pub fn run() -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Stability(arguments) => stability::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
+        Command::Tune(arguments) => tune::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Kernels(arguments) => kernels::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),

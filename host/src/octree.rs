@@ -2,11 +2,13 @@
 
 mod build;
 mod duplicates;
+mod options;
 mod overlap;
+mod prune;
 mod root;
 
-pub use build::OctreeOptions;
 pub(crate) use duplicates::{distinct, duplicates, has_area};
+pub use options::OctreeOptions;
 pub(crate) use overlap::overlapped_children;
 pub(crate) use root::root;
 pub use root::{LARGEST_EXTENT, SMALLEST_EXTENT};

@@ -17,6 +17,7 @@ use glam::{UVec4, Vec2, Vec3, Vec4};
 use oktant_shared::environment::Environment;
 use oktant_shared::light::{AREA, Light};
 use oktant_shared::material::{Material, SMOOTH_NORMALS, VERTEX_COLORS};
+use oktant_shared::medium::MAX_MATERIALS;
 use oktant_shared::octree::Root;
 use oktant_shared::parts::Parts;
 use oktant_shared::plane::Plane;
@@ -101,6 +102,11 @@ pub enum SceneError {
     /// The build went wrong.
     #[error(transparent)]
     Invalid(#[from] InvalidStructure),
+    /// More materials than a ray can tell apart.
+    #[error(
+        "The scene has {0} materials, and at most {MAX_MATERIALS} are told apart: give those that look alike the same name."
+    )]
+    Materials(usize),
 }
 
 impl Scene {
@@ -116,9 +122,12 @@ impl Scene {
     ///
     /// # Errors
     /// [`SceneError::Build`] where there is neither a triangle with an area nor a plane; [`SceneError::Model`] where the
-    /// model breaks a rule that a kernel relies on, such as an index out of range.
+    /// model breaks a rule that a kernel relies on, such as an index out of range; [`SceneError::Materials`].
     pub fn of_model(model: Model, options: &StructureOptions, progress: Progress<'_>) -> Result<Self, SceneError> {
         validate::validate(&model)?;
+        if model.materials.len() > MAX_MATERIALS as usize {
+            return Err(SceneError::Materials(model.materials.len()));
+        }
         let structure = match Structure::build(&model.mesh, options, progress) {
             Err(BuildError::NoArea) if !model.planes.is_empty() => Structure::empty(options.parts.traversal),
             built => built?,

@@ -9,10 +9,12 @@ pub use figures::Figures;
 pub use validate::InvalidStructure;
 
 use crate::build_error::BuildError;
+use crate::costs::Costs;
 use crate::grid::{Grid, GridOptions};
 use crate::hittable::Hittable;
 use crate::mesh::Mesh;
 use crate::octree::{Octree, OctreeOptions, root};
+use crate::profile::Profile;
 use crate::progress::Progress;
 use crate::tree::{BinaryTree, BuildPreset, CellTree, CollapseOptions, MortonOrder, WideNode, zeroed};
 use glam::{UVec3, UVec4, Vec3, Vec4, uvec4};
@@ -24,16 +26,30 @@ use oktant_shared::triangle::Triangle;
 use rayon::prelude::*;
 
 /// Which structure to build, and how.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StructureOptions {
     /// What rays are traced with; the structure is the one that the traversal reads.
     pub parts: Parts,
     /// What the build spends its time on, if it is a tree of boxes.
     pub preset: BuildPreset,
-    /// Limits, if it is the octree.
+    /// What a ray's work costs, if it is the tree of boxes in the slots of octants.
+    pub boxes: Costs,
+    /// What decides its splits, if it is the octree.
     pub octree: OctreeOptions,
     /// Limits, if it is the grid.
     pub grid: GridOptions,
+}
+
+impl Default for StructureOptions {
+    fn default() -> Self {
+        StructureOptions {
+            parts: Parts::default(),
+            preset: BuildPreset::default(),
+            boxes: Costs::OCTANTS,
+            octree: OctreeOptions::default(),
+            grid: GridOptions::default(),
+        }
+    }
 }
 
 impl StructureOptions {
@@ -46,6 +62,12 @@ impl StructureOptions {
             },
             ..StructureOptions::default()
         }
+    }
+
+    /// Counts with what was measured.
+    pub fn apply(&mut self, profile: &Profile) {
+        self.boxes = profile.octants;
+        self.octree.costs = profile.octree;
     }
 }
 
@@ -162,7 +184,11 @@ impl Structure {
             (bytemuck::allocation::cast_vec(cells.nodes), cells.ids, cells.triangles)
         } else {
             let tree = BinaryTree::of(&order, mesh, options.preset, progress);
-            let wide = tree.to_wide(&CollapseOptions::of(options.preset), encode);
+            let collapse = CollapseOptions {
+                costs: options.boxes,
+                ..CollapseOptions::of(options.preset)
+            };
+            let wide = tree.to_wide(&collapse, encode);
             let triangles = rows(&wide.order);
             (bytemuck::allocation::cast_vec(wide.nodes), wide.order, triangles)
         };

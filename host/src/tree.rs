@@ -25,7 +25,7 @@ pub use binary::{BinaryNode, BinaryTree, MAX_BINARY_DEPTH};
 pub use cells::CellTree;
 pub use collapse::CollapseOptions;
 pub use emission::WideArrays;
-pub use metrics::{BinaryFigures, Costs, WideFigures};
+pub use metrics::{BinaryFigures, WideFigures};
 pub use morton::MortonOrder;
 pub use pages::zeroed;
 pub use slots::Placing;

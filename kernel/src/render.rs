@@ -8,7 +8,7 @@ use oktant_shared::general::General;
 use oktant_shared::light::Light;
 use oktant_shared::material::Material;
 use oktant_shared::plane::Plane;
-use oktant_shared::render::{Pixel, hit_pixel, render_pixel};
+use oktant_shared::render::{Pixel, hit_pixel, looks, render_sample};
 use oktant_shared::sampling::Batch;
 use oktant_shared::scene::{Appearance, Scene, World};
 use oktant_shared::texture::Texture;
@@ -104,30 +104,44 @@ macro_rules! renders {
                 }
                 if is_there {
                     let index = pixel.y * size.x + pixel.x;
-                    let pixel = render_pixel::<$traversal, { $needs }>(frame, &world, pixel, &batch);
-                    add(frame, &batch, index, pixel, picture, work, marks);
+                    let mut number = 0;
+                    loop {
+                        let one = render_sample::<$traversal, { $needs }>(frame, &world, pixel, &batch, number);
+                        add(frame, &batch, number, index, one, picture, work, marks);
+                        number += 1;
+                        if number >= looks(frame, &batch) {
+                            break;
+                        }
+                    }
                 }
             }
         );
     };
 }
 
-/// Adds to the pixel; the first pass overwrites, and so does each first pass over a list, but of the work. `work` and `marks`
-/// may hold fewer pixels, or none.
+/// Adds what a look brought to the pixel, in memory: kept in registers, the sums would leave room for fewer threads while rays are
+/// traced. The first pass overwrites, and so does each first pass over a list, but of the work. `work` and `marks` may hold
+/// fewer pixels, or none.
 fn add(
     frame: &Frame,
     batch: &Batch,
+    number: u32,
     index: u32,
     pixel: Pixel,
     picture: &mut [Vec4],
     work: &mut [Vec4],
     marks: &mut [Mark],
 ) {
-    let is_first = batch.first == 0;
+    let is_first = (batch.first == 0) & (number == 0);
     add_to(picture, index, is_first, pixel.sum);
     add_to(work, index, is_first & (frame.is_listed == 0), pixel.work);
     if index < marks.len() as u32 {
-        let mark = pixel.mark.after(load(marks, index), batch);
+        let before = load(marks, index);
+        let mark = if number == 0 {
+            pixel.mark.after(before, batch)
+        } else {
+            before.and(&pixel.mark, batch, number)
+        };
         store(marks, index, mark);
     }
 }

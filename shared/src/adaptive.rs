@@ -108,6 +108,23 @@ impl Mark {
         self
     }
 
+    /// With what one more look through the pixel brought, `number` of a batch's (see [`crate::render::looks`]), not the first. Of
+    /// a pixel's only sample the other eye may see something else.
+    #[inline]
+    #[must_use]
+    pub fn and(self, other: &Mark, batch: &Batch, number: u32) -> Self {
+        let joined = self.joined(other);
+        if batch.samples == 1 && number == 1 {
+            Mark {
+                seen: self.seen.rotate_left(16) ^ other.seen,
+                state: joined.state,
+                ..*other
+            }
+        } else {
+            joined
+        }
+    }
+
     /// With the brightnesses of others of its samples.
     #[inline]
     #[must_use]
@@ -141,6 +158,9 @@ impl Mark {
         }
     }
 }
+
+/// [`packed`] of no direction.
+pub const NO_NORMAL: u32 = 511 | 511 << 10 | 511 << 20;
 
 /// A normal in 10 bits a coordinate.
 #[inline]

@@ -7,34 +7,60 @@ use glam::UVec4;
 /// How many media can enclose a point at a time. Where more do, the last one entered takes the place of the one before.
 pub const MAX_NESTED: u32 = 4;
 
+/// How many materials a scene has at most: so many are told apart in [`Media`].
+pub const MAX_MATERIALS: u32 = 0xffff;
+
 /// The media around a point, as indices of materials: nested dielectrics with priorities (C. M. Schmidt, B. Budge,
 /// "Simple nested dielectrics in ray traced images", Journal of Graphics Tools 7(2), 2002).
 ///
 /// Nothing is toggled: crossing a surface against its normal enters its medium, crossing it along the normal leaves it,
 /// and leaving what was never entered changes nothing.
+///
+/// Of each the index of its material plus 1, or 0 where the place is free, in 16 bits: it goes with every ray, and a GPU traces the
+/// more rays at a time the less goes with each. The used places come first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Media {
-    /// Index of the material plus 1, or 0 where the place is free; the used places come first.
-    inside: [u32; MAX_NESTED as usize],
+    /// The first two, the very first in the lower bits.
+    outer: u32,
+    /// The others.
+    inner: u32,
 }
 
 impl Media {
     /// In the air.
-    pub const AIR: Media = Media {
-        inside: [0; MAX_NESTED as usize],
-    };
+    pub const AIR: Media = Media { outer: 0, inner: 0 };
 
     /// Those of [`crate::frame::Frame::media`]: indices of materials plus 1 in the order in which they were entered, and
     /// 0 where there are no more.
     pub fn of_eye(media: UVec4) -> Self {
         Media {
-            inside: [media.x, media.y, media.z, media.w],
+            outer: media.x | media.y << 16,
+            inner: media.z | media.w << 16,
         }
     }
 
     /// As [`crate::frame::Frame::media`].
     pub fn to_eye(self) -> UVec4 {
-        UVec4::new(self.inside[0], self.inside[1], self.inside[2], self.inside[3])
+        UVec4::new(self.at(0), self.at(1), self.at(2), self.at(3))
+    }
+
+    /// What is at a place, below [`MAX_NESTED`].
+    #[inline(always)]
+    fn at(&self, place: u32) -> u32 {
+        let pair = if place < 2 { self.outer } else { self.inner };
+        pair >> (16 * (place & 1)) & 0xffff
+    }
+
+    /// Puts something there.
+    #[inline(always)]
+    fn put(&mut self, place: u32, inside: u32) {
+        let shift = 16 * (place & 1);
+        let with = |pair: u32| pair & !(0xffff << shift) | inside << shift;
+        if place < 2 {
+            self.outer = with(self.outer);
+        } else {
+            self.inner = with(self.inner);
+        }
     }
 
     /// The material that fills the point, of those around it the one with the highest priority (of equal ones the last
@@ -43,8 +69,8 @@ impl Media {
         let mut current = 0;
         let mut priority = 0;
         let mut i = 0;
-        while i < MAX_NESTED as usize {
-            let inside = self.inside[i];
+        while i < MAX_NESTED {
+            let inside = self.at(i);
             if inside != 0 {
                 let own = load(materials, inside - 1).priority;
                 if current == 0 || own >= priority {
@@ -60,29 +86,26 @@ impl Media {
     /// After entering a material.
     pub fn entered(mut self, material: u32) -> Self {
         let mut place = 0;
-        while place < MAX_NESTED as usize - 1 && self.inside[place] != 0 {
+        while place < MAX_NESTED - 1 && self.at(place) != 0 {
             place += 1;
         }
-        self.inside[place] = material + 1;
+        self.put(place, material + 1);
         self
     }
 
     /// After leaving a material: the one entered last of its kind is gone.
     pub fn left(mut self, material: u32) -> Self {
-        let mut gone = MAX_NESTED as usize;
+        let mut gone = MAX_NESTED;
         let mut i = 0;
-        while i < MAX_NESTED as usize {
-            if self.inside[i] == material + 1 {
+        while i < MAX_NESTED {
+            if self.at(i) == material + 1 {
                 gone = i;
             }
             i += 1;
         }
-        while gone < MAX_NESTED as usize {
-            self.inside[gone] = if gone + 1 < MAX_NESTED as usize {
-                self.inside[gone + 1]
-            } else {
-                0
-            };
+        while gone < MAX_NESTED {
+            let next = if gone + 1 < MAX_NESTED { self.at(gone + 1) } else { 0 };
+            self.put(gone, next);
             gone += 1;
         }
         self
@@ -114,6 +137,19 @@ mod tests {
         assert_eq!(media.current(&materials), 3);
         assert_eq!(media.left(2).current(&materials), 1);
         assert_eq!(media.left(2).left(0), Media::AIR);
+    }
+
+    #[test]
+    fn what_goes_in_comes_out_at_every_place() {
+        let media = UVec4::new(1, MAX_MATERIALS, 0x8000, MAX_MATERIALS - 1);
+        assert_eq!(Media::of_eye(media).to_eye(), media);
+        let entered = media
+            .to_array()
+            .into_iter()
+            .fold(Media::AIR, |media, inside| media.entered(inside - 1));
+        assert_eq!(entered.to_eye(), media);
+        let left = entered.left(MAX_MATERIALS - 1);
+        assert_eq!(left.to_eye(), UVec4::new(1, 0x8000, MAX_MATERIALS - 1, 0));
     }
 
     #[test]

@@ -1,7 +1,6 @@
 //! The whole body of the kernel.
 
-use crate::adaptive::{Mark, level_of, packed};
-use crate::arithmetic::max_component;
+use crate::adaptive::{Mark, level_of};
 use crate::frame::Frame;
 use crate::hit::Hit;
 use crate::medium::Media;
@@ -30,13 +29,12 @@ fn ray_of(frame: &Frame, view: &EyeView, place: Vec2) -> Ray {
     frame.camera.ray(x, y, view.eye)
 }
 
-/// What a pixel's samples came to.
+/// What samples of a pixel came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pixel {
-    /// The weighted sum of the colours, linear RGB, of this pass's samples, and in `w` the sum of their weights.
+    /// The weighted sum of the colours, linear RGB, and in `w` the sum of their weights.
     pub sum: Vec4,
-    /// Closest-hit rays, shadow rays, and the weight that was cut (see [`Traced`]), largest channel, times the sample's,
-    /// summed over the samples; `w` is 0.
+    /// Closest-hit rays, shadow rays, and the weight that was cut (see [`Traced`]) times the sample's, summed over the samples; `w` is 0.
     pub work: Vec4,
     /// What adaptive sampling wants to know of them; of the middle, if the first of them is the pixel's only one.
     pub mark: Mark,
@@ -44,11 +42,38 @@ pub struct Pixel {
 
 /// Renders a batch of a pixel's samples, there is at least one, with what the needs of [`crate::variant`] have; what
 /// else there is, is ignored.
+///
+/// A GPU does the same sample by sample, and keeps what they come to in memory: see [`render_sample`].
 pub fn render_pixel<V: Traversal, const NEEDS: u32>(
     frame: &Frame,
     world: &World<'_>,
     pixel: UVec2,
     batch: &Batch,
+) -> Pixel {
+    let mut result = render_sample::<V, NEEDS>(frame, world, pixel, batch, 0);
+    for number in 1..looks(frame, batch) {
+        let other = render_sample::<V, NEEDS>(frame, world, pixel, batch, number);
+        result.sum += other.sum;
+        result.work += other.work;
+        result.mark = result.mark.and(&other.mark, batch, number);
+    }
+    result
+}
+
+/// How often a batch looks through a pixel: each eye that shares it takes all samples.
+#[inline]
+pub fn looks(frame: &Frame, batch: &Batch) -> u32 {
+    batch.count * EyeView::eyes(frame)
+}
+
+/// Looks once through a pixel; `number` is less than [`looks`] and counts samples, of each one eye after the other.
+#[inline(always)]
+pub fn render_sample<V: Traversal, const NEEDS: u32>(
+    frame: &Frame,
+    world: &World<'_>,
+    pixel: UVec2,
+    batch: &Batch,
+    number: u32,
 ) -> Pixel {
     let world = &World {
         scene: Scene {
@@ -57,39 +82,30 @@ pub fn render_pixel<V: Traversal, const NEEDS: u32>(
         },
         ..*world
     };
-    let mut result = Pixel {
-        sum: Vec4::ZERO,
-        work: Vec4::ZERO,
-        mark: Mark::of_level(level_of(batch.samples)),
-    };
     let eyes = EyeView::eyes(frame);
-    let mut number = 0;
-    loop {
-        let sample = sample(frame, batch, batch.first + number / eyes);
-        let view = EyeView::new(frame, pixel, number % eyes);
-        let ray = ray_of(frame, &view, sample.place);
-        let traced = if NEEDS & (MIRRORS | GLASS) != 0 {
-            trace::<V, NEEDS>(frame, world, &ray)
-        } else {
-            first_surface::<V, NEEDS>(frame, world, &ray)
+    let sample = sample(frame, batch, batch.first + number / eyes);
+    let view = EyeView::new(frame, pixel, number % eyes);
+    let ray = ray_of(frame, &view, sample.place);
+    let traced = if NEEDS & (MIRRORS | GLASS) != 0 {
+        trace::<V, NEEDS>(frame, world, &ray)
+    } else {
+        first_surface::<V, NEEDS>(frame, world, &ray)
+    };
+    let (color, weight) = view.share(frame, traced.color * sample.weight, sample.weight);
+    let mut mark = Mark::of_level(level_of(batch.samples));
+    if frame.most_samples != 0 {
+        mark = Mark {
+            seen: traced.seen,
+            nearness: traced.nearness,
+            normal: traced.normal,
+            ..mark.with(frame, traced.color)
         };
-        let (color, weight) = view.share(frame, traced.color * sample.weight, sample.weight);
-        result.sum += color.extend(weight);
-        let cut = max_component(traced.cut) * sample.weight;
-        result.work += Vec4::new(traced.rays as f32, traced.shadow_rays as f32, cut, 0.0);
-        if frame.most_samples != 0 {
-            if number < eyes {
-                // What either eye sees.
-                result.mark.seen = result.mark.seen.rotate_left(16) ^ traced.seen;
-                result.mark.nearness = traced.nearness;
-                result.mark.normal = packed(traced.normal);
-            }
-            result.mark = result.mark.with(frame, traced.color);
-        }
-        number += 1;
-        if number >= batch.count * eyes {
-            return result;
-        }
+    }
+    let cut = traced.cut * sample.weight;
+    Pixel {
+        sum: color.extend(weight),
+        work: Vec4::new(traced.rays as f32, traced.shadow_rays as f32, cut, 0.0),
+        mark,
     }
 }
 

@@ -11,7 +11,7 @@ use crate::scene::World;
 use crate::shadow::visibility;
 use crate::surface::Surface;
 use crate::traversal::Traversal;
-use crate::variant::LIGHTS;
+use crate::variant::{GLASS, LIGHTS};
 use crate::whitted::Traced;
 use glam::Vec3;
 #[cfg(target_arch = "spirv")]
@@ -50,58 +50,62 @@ pub fn shade<V: Traversal, const NEEDS: u32>(
     traced: &mut Traced,
 ) -> Vec3 {
     let mut color = surface.base * surface.material.ambient * frame.ambient;
+    let mut shadows = 0;
     if NEEDS & LIGHTS == 0 {
-        return color + lit::<V, NEEDS>(frame, world, surface, viewer, &frame.light, traced);
+        color += lit_by::<V, NEEDS>(frame, world, surface, viewer, &frame.light, 0, traced, &mut shadows);
+        if viewer.is_seen {
+            traced.sees(kind(shadows));
+        }
+        return color;
     }
     let mut i = 0;
-    // One call for all lights: each would be a copy of the whole traversal in the kernel. Asked at its beginning whether to
-    // go on, the loop is up to three times as fast on a GPU, unlike those of the traversals.
+    let mut sample = 0;
+    // One call for all samples of all lights: each would be a copy of the whole traversal in the kernel, and a loop within a
+    // loop would keep the light in registers meanwhile. Asked at its beginning whether to go on, the loop is up to three
+    // times as fast on a GPU, unlike those of the traversals.
     while i <= frame.light_count {
         let light = if i == 0 {
             frame.light
         } else {
             load(world.appearance.lights, i - 1)
         };
-        color += lit::<V, NEEDS>(frame, world, surface, viewer, &light, traced);
-        i += 1;
-    }
-    color
-}
-
-fn lit<V: Traversal, const NEEDS: u32>(
-    frame: &Frame,
-    world: &World<'_>,
-    surface: &Surface,
-    viewer: &Viewer,
-    light: &Light,
-    traced: &mut Traced,
-) -> Vec3 {
-    let (asked, dark) = (traced.shadow_rays, traced.dark);
-    let mut color = Vec3::ZERO;
-    if NEEDS & LIGHTS == 0 {
-        color = lit_by::<V, NEEDS>(frame, world, surface, viewer, light, 0, traced);
-    } else {
-        let count = light.sample_count();
-        let mut sample = 0;
-        while sample < count {
-            color += lit_by::<V, NEEDS>(frame, world, surface, viewer, light, sample, traced);
-            sample += 1;
+        let is_last = sample + 1 == light.sample_count();
+        color += lit_by::<V, NEEDS>(frame, world, surface, viewer, &light, sample, traced, &mut shadows);
+        sample += 1;
+        if is_last {
+            if viewer.is_seen {
+                traced.sees(kind(shadows));
+            }
+            shadows = 0;
+            sample = 0;
+            i += 1;
         }
     }
-    if viewer.is_seen {
-        let (asked, dark) = (traced.shadow_rays - asked, traced.dark - dark);
-        traced.sees(if dark == 0 {
-            0
-        } else if dark == asked {
-            1
-        } else {
-            2
-        });
-    }
     color
 }
 
-/// What one sample of a light contributes.
+/// A shadow ray of a light has met something that lets no light through.
+const DARK: u32 = 1;
+/// One has not.
+const LIT: u32 = 2;
+
+/// No shadow, nothing but shadow, or both.
+#[inline]
+fn kind(shadows: u32) -> u32 {
+    if shadows & DARK == 0 {
+        0
+    } else if shadows & LIT == 0 {
+        1
+    } else {
+        2
+    }
+}
+
+/// What one sample of a light contributes; `shadows` becomes [`DARK`] or [`LIT`] as well, if a shadow ray is sent.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "what the loop over lights adds to is not worth a structure"
+)]
 fn lit_by<V: Traversal, const NEEDS: u32>(
     frame: &Frame,
     world: &World<'_>,
@@ -110,16 +114,16 @@ fn lit_by<V: Traversal, const NEEDS: u32>(
     light: &Light,
     sample: u32,
     traced: &mut Traced,
+    shadows: &mut u32,
 ) -> Vec3 {
     let material = &surface.material;
-    let origin = surface.shadow_point + surface.side * surface.clearance;
-    let is_lifted = surface.shadow_point != surface.point;
+    let origin = surface.shadow_origin;
     let count = if NEEDS & LIGHTS != 0 { light.sample_count() } else { 1 };
     let incident = light.incident(sample, origin, frame.root.size());
     let direction = incident.direction.normalize();
     let cosine = surface.normal.dot(direction);
     // A light below the triangle still grazes the rounder surface that a lifted point is on.
-    let above = (surface.side.dot(direction) > 0.0) | is_lifted;
+    let above = (surface.side.dot(direction) > 0.0) | surface.is_lifted;
     if !((cosine > 0.0) & above & (incident.color != Vec3::ZERO)) {
         return Vec3::ZERO;
     }
@@ -137,12 +141,15 @@ fn lit_by<V: Traversal, const NEEDS: u32>(
     let reflected = surface.base * (material.diffuse * cosine) + material.specular * highlight;
     let most = max_component(viewer.weight * reflected);
     if most < NEGLIGIBLE {
-        traced.cut += viewer.weight * reflected / count as f32;
+        traced.cut += most / count as f32;
         return Vec3::ZERO;
     }
     traced.shadow_rays += 1;
+    let arriving = reflected * incident.color;
     let visibility = visibility::<V, NEEDS>(frame, world, origin, viewer.media, &incident);
-    traced.cut += viewer.weight * reflected * visibility.cut / count as f32;
-    traced.dark += if visibility.part == Vec3::ZERO { 1 } else { 0 };
-    reflected * incident.color * visibility.part
+    if NEEDS & GLASS != 0 {
+        traced.cut += most * visibility.cut / count as f32;
+    }
+    *shadows |= if visibility.part == Vec3::ZERO { DARK } else { LIT };
+    arriving * visibility.part
 }

@@ -1,6 +1,6 @@
 //! Whether, and in which colour, a point sees a light.
 
-use crate::arithmetic::min;
+use crate::arithmetic::{max_component, min};
 use crate::buffer::load;
 use crate::frame::{Frame, TRANSPARENT};
 use crate::light::Incident;
@@ -23,13 +23,13 @@ pub const MAX_SHADOW_SURFACES: u32 = 16;
 pub struct Visibility {
     /// The part of its light that arrives, linear RGB: all, nothing, or what transmissive things in between leave.
     pub part: Vec3,
-    /// What may arrive beside that, for the ray was followed no further.
-    pub cut: Vec3,
+    /// What may arrive beside that, of its largest channel, for the ray was followed no further.
+    pub cut: f32,
 }
 
 impl Visibility {
     fn of(part: Vec3) -> Self {
-        Visibility { part, cut: Vec3::ZERO }
+        Visibility { part, cut: 0.0 }
     }
 }
 
@@ -82,7 +82,7 @@ pub fn visibility<V: Traversal, const NEEDS: u32>(
         if surfaces == MAX_SHADOW_SURFACES {
             return Visibility {
                 part: Vec3::ZERO,
-                cut: part,
+                cut: max_component(part),
             };
         }
         surfaces += 1;

@@ -30,8 +30,10 @@ pub struct Surface {
     pub from_front: bool,
     /// Unit normal that shades: interpolated and bumpy, but so that the ray is reflected to its side.
     pub normal: Vec3,
-    /// Where shadow rays start, before they are moved off the surface: on or above it.
-    pub shadow_point: Vec3,
+    /// Where shadow rays start, off the surface: above the triangle, where it stands for something rounder.
+    pub shadow_origin: Vec3,
+    /// Whether that is higher above the triangle than rounding asks for.
+    pub is_lifted: bool,
     /// Colour of the surface, linear RGB.
     pub base: Vec3,
     /// Index of the material.
@@ -121,7 +123,8 @@ fn on_plane<const NEEDS: u32>(world: &World<'_>, ray: &Ray, hit: &Hit, view: Vec
         side,
         from_front,
         normal: bent(front * turn, side, view),
-        shadow_point: point,
+        shadow_origin: point + side * clearance,
+        is_lifted: false,
         base: if NEEDS & TEXTURES != 0 {
             material.base * texture_color(world, &material, at)
         } else {
@@ -204,7 +207,8 @@ fn on_triangle<const NEEDS: u32>(frame: &Frame, world: &World<'_>, ray: &Ray, hi
         side,
         from_front,
         normal,
-        shadow_point,
+        shadow_origin: shadow_point + side * clearance,
+        is_lifted: shadow_point != point,
         base,
         material_id,
         material,

@@ -1,5 +1,6 @@
 //! The tree of a ray's reflections and refractions.
 
+use crate::adaptive::{NO_NORMAL, packed};
 use crate::arithmetic::{greater, max_component};
 use crate::buffer::{Stack, load};
 use crate::display::steps;
@@ -37,17 +38,15 @@ pub struct Traced {
     pub rays: u32,
     /// Rays that asked whether a light is seen.
     pub shadow_rays: u32,
-    /// Of those, how many met something that lets no light through.
-    pub dark: u32,
-    /// The weight of the rays, shadow rays too, that were not followed, linear RGB, summed up: what the colour is off by is
-    /// at most this part of the brightest thing there is.
-    pub cut: Vec3,
+    /// The weight of the rays, shadow rays too, that were not followed, of each its largest channel, summed up: what the colour
+    /// is off by is at most this part of the brightest thing there is.
+    pub cut: f32,
     /// A number made of the materials that were met and of the lights that reach them: differs where something else is seen.
     pub seen: u32,
     /// One by the `t` of the first hit; 0 where there is none.
     pub nearness: f32,
-    /// Normal of the first surface; zero where there is none.
-    pub normal: Vec3,
+    /// Normal of the first surface, see [`packed`]; of zero where there is none.
+    pub normal: u32,
 }
 
 impl Traced {
@@ -56,11 +55,10 @@ impl Traced {
         color: Vec3::ZERO,
         rays: 0,
         shadow_rays: 0,
-        dark: 0,
-        cut: Vec3::ZERO,
+        cut: 0.0,
         seen: 0,
         nearness: 0.0,
-        normal: Vec3::ZERO,
+        normal: NO_NORMAL,
     };
 
     /// Takes note of something that is seen.
@@ -74,7 +72,7 @@ impl Traced {
     #[inline]
     pub fn meets(&mut self, hit: &Hit, surface: &Surface) {
         self.nearness = 1.0 / greater(hit.t, f32::MIN_POSITIVE);
-        self.normal = surface.normal;
+        self.normal = packed(surface.normal);
     }
 }
 
@@ -167,7 +165,7 @@ fn leave<const NEEDS: u32>(frame: &Frame, world: &World<'_>, ray: &Pending, trac
     }
     traced.color += ray.weight * surroundings::<NEEDS>(frame, world, ray.direction);
     if ray.depth != OUTSIDE {
-        traced.cut += ray.weight;
+        traced.cut += max_component(ray.weight);
     }
 }
 
@@ -230,7 +228,6 @@ fn follow<V: Traversal, const NEEDS: u32>(
         return children;
     }
     let surface = Surface::new::<NEEDS>(frame, world, &ray, &hit);
-    let material = &surface.material;
     let is_seen = from.depth <= SEEN_DEPTH;
     if is_seen {
         traced.sees(surface.material_id + 1);
@@ -238,23 +235,10 @@ fn follow<V: Traversal, const NEEDS: u32>(
     if from.depth == 0 {
         traced.meets(&hit, &surface);
     }
-    let mut beyond = from.media;
-    let mut from_index = if NEEDS & GLASS == 0 || around == 0 {
-        1.0
-    } else {
-        load(appearance.materials, around - 1).ior
-    };
-    let mut to_index = from_index;
-    if NEEDS & GLASS != 0 && material.is_transmissive() {
-        beyond = if surface.from_front {
-            from.media.entered(surface.material_id)
-        } else {
-            from.media.left(surface.material_id)
-        };
-        let then = beyond.current(appearance.materials);
+    if NEEDS & GLASS != 0 && around != 0 && surface.material.is_transmissive() {
         // A boundary inside a medium of higher priority, or between equal ones.
-        let is_hidden = around != 0 && then == around;
-        if is_hidden {
+        let beyond = beyond(from, &surface);
+        if beyond.current(appearance.materials) == around {
             children.transmitted = Pending {
                 origin: surface.back_origin(),
                 weight,
@@ -262,15 +246,6 @@ fn follow<V: Traversal, const NEEDS: u32>(
                 ..*from
             };
             return children;
-        }
-        to_index = if then == 0 {
-            1.0
-        } else {
-            load(appearance.materials, then - 1).ior
-        };
-        if !surface.from_front && around == 0 {
-            // Inside of something that was never entered: its surface is not closed, or the eyes are apart.
-            from_index = material.ior;
         }
     }
     let view = -ray.direction.normalize();
@@ -283,6 +258,33 @@ fn follow<V: Traversal, const NEEDS: u32>(
     let shaded = shade::<V, NEEDS>(frame, world, &surface, &viewer, traced);
     traced.color += weight * shaded;
 
+    // What follows is found out only now, so that none of it is kept in registers across the rays to the lights.
+    let material = &surface.material;
+    let around = if NEEDS & GLASS != 0 {
+        from.media.current(appearance.materials)
+    } else {
+        0
+    };
+    let mut from_index = if NEEDS & GLASS == 0 || around == 0 {
+        1.0
+    } else {
+        load(appearance.materials, around - 1).ior
+    };
+    let mut to_index = from_index;
+    let mut media = from.media;
+    if NEEDS & GLASS != 0 && material.is_transmissive() {
+        media = beyond(from, &surface);
+        let then = media.current(appearance.materials);
+        to_index = if then == 0 {
+            1.0
+        } else {
+            load(appearance.materials, then - 1).ior
+        };
+        if !surface.from_front && around == 0 {
+            // Inside of something that was never entered: its surface is not closed, or the eyes are apart.
+            from_index = material.ior;
+        }
+    }
     let mut mirror = material.mirror;
     let mut transmission = material.transmission;
     let has_fresnel = material.flags & FRESNEL != 0;
@@ -307,7 +309,7 @@ fn follow<V: Traversal, const NEEDS: u32>(
             depth: from.depth + 1,
             direction,
             weight: weight * transmission,
-            media: beyond,
+            media,
         };
     } else if has_fresnel && mirror != Vec3::ZERO {
         mirror *= refracted(-view, surface.normal, from_index, material.ior).reflectance;
@@ -320,4 +322,14 @@ fn follow<V: Traversal, const NEEDS: u32>(
         media: from.media,
     };
     children
+}
+
+/// What a ray is inside of behind a transmissive surface.
+#[inline]
+fn beyond(from: &Pending, surface: &Surface) -> Media {
+    if surface.from_front {
+        from.media.entered(surface.material_id)
+    } else {
+        from.media.left(surface.material_id)
+    }
 }

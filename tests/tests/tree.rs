@@ -4,6 +4,7 @@
 
 use glam::Vec3;
 use oktant::build_error::BuildError;
+use oktant::costs::Costs;
 use oktant::generated::{bumpy_ball, knot, room, soup, teapot_in_stadium};
 use oktant::mesh::Mesh;
 use oktant::mesh_source::MeshSource;
@@ -12,7 +13,7 @@ use oktant::progress::silent;
 use oktant::scene::{Memory, Scene};
 use oktant::shapes::stadium;
 use oktant::structure::StructureOptions;
-use oktant::tree::{BinaryTree, BuildPreset, CollapseOptions, Costs, MAX_LEAF, WideTree};
+use oktant::tree::{BinaryTree, BuildPreset, CollapseOptions, MAX_LEAF, WideTree};
 use oktant_shared::brute::Brute;
 use oktant_shared::hit::Hit;
 use oktant_shared::octants::MAX_LEVEL;
@@ -186,7 +187,7 @@ fn fuller_nodes_cost_little_and_only_where_they_are_needed() {
     ] {
         let binary = BinaryTree::build(&mesh, BuildPreset::Balanced, &silent).unwrap();
         let [cheapest, filled] = [unlimited, CollapseOptions::default()].map(|options| WideTree::of(&binary, &options));
-        let [before, after] = [&cheapest, &filled].map(|tree| tree.figures(&Costs::default()));
+        let [before, after] = [&cheapest, &filled].map(|tree| tree.figures(&Costs::OCTANTS));
         println!("{name}: {before:?} {after:?}");
         assert_eq!(cheapest.nodes != filled.nodes, is_needed, "{name}");
         assert!(after.cost <= 1.01 * before.cost, "{name}: {before:?} {after:?}");
@@ -351,7 +352,7 @@ fn builds_are_measured() {
                     .collect();
                 times.sort_by(f64::total_cmp);
                 let wide = WideTree::build(&mesh, preset, &silent).unwrap();
-                let figures = wide.figures(&Costs::default());
+                let figures = wide.figures(&Costs::OCTANTS);
                 println!(
                     "{name:8} {:9} {threads} {:8.1} {:8.1} {:7.2} {:8} {:3} {:5.2} {:5.2} {:5.1}",
                     preset.name(),
@@ -414,7 +415,7 @@ fn no_node_is_deeper_than_kernels_go() {
     let mut deepest = 0;
     for (name, mesh) in dwindling() {
         for preset in BuildPreset::ALL {
-            let depth = |tree: &WideTree| tree.figures(&Costs::default()).depth;
+            let depth = |tree: &WideTree| tree.figures(&Costs::OCTANTS).depth;
             let binary = BinaryTree::build(&mesh, preset, &silent).unwrap();
             let cheapest = depth(&WideTree::of(&binary, &unlimited));
             let tree = WideTree::build(&mesh, preset, &silent).unwrap();

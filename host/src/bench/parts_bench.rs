@@ -6,6 +6,7 @@ use super::subject::{JudgedSet, Subject};
 use super::tracer::{Device, Tracer};
 use crate::backend::BackendError;
 use crate::model::Model;
+use crate::profile::Profile;
 use crate::progress::{Progress, silent};
 use crate::scene::{Memory, Scene, SceneError};
 use crate::spread::Spread;
@@ -30,6 +31,8 @@ pub struct Plan {
     pub builds: Vec<BuildPreset>,
     /// Measurements of each time, at least one.
     pub repeats: u32,
+    /// What structures are built by, instead of the costs that they count with by default.
+    pub profile: Option<Profile>,
 }
 
 /// Why nothing could be measured.
@@ -66,7 +69,7 @@ pub fn measure(
         if sets.is_empty() {
             continue;
         }
-        let (scene, build_milliseconds) = build(subject, traversal, preset, plan.repeats)?;
+        let (scene, build_milliseconds) = build(subject, plan, traversal, preset)?;
         let bytes = Memory::of(&scene).traced();
         let able = devices
             .iter()
@@ -136,14 +139,17 @@ fn fits(traversal: TraversalKind, set: &JudgedSet, subject: &Subject) -> bool {
 
 fn build(
     subject: &Subject,
+    plan: &Plan,
     traversal: TraversalKind,
     preset: BuildPreset,
-    repeats: u32,
 ) -> Result<(Arc<Scene>, Spread), MeasureError> {
-    let options = StructureOptions {
+    let mut options = StructureOptions {
         preset,
         ..StructureOptions::of(traversal)
     };
+    if let Some(profile) = &plan.profile {
+        options.apply(profile);
+    }
     let begin = Instant::now();
     let mut times = Vec::new();
     loop {
@@ -151,7 +157,7 @@ fn build(
         let start = Instant::now();
         let scene = Scene::of_model(model, &options, &silent)?;
         times.push(start.elapsed().as_secs_f64() * 1e3);
-        if times.len() >= repeats as usize || begin.elapsed() > BUILDING {
+        if times.len() >= plan.repeats as usize || begin.elapsed() > BUILDING {
             let spread = Spread::new(times).expect("there is a time");
             return Ok((Arc::new(scene), spread));
         }

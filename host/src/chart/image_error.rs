@@ -20,10 +20,59 @@ const PATTERNS: [(Pattern, &str); 3] = [
     (Pattern::R2, "R2 sequence"),
 ];
 
-/// The error of pictures in 1, 4, 16 and 64 samples of each pattern, the same for all pixels and as many as each needs,
-/// against milliseconds, scene by scene: one figure of the
-/// root mean square error of the light, one of the mean of FLIP. What is right is a picture of 1,024 samples in f64, with the
-/// scene's own filter, depth and cut-off. `progress` hears of the stages "rendering" and "measuring".
+/// Edges of the blocks of which only the corners are traced where these agree, pixels.
+const BLOCKS: [u32; 3] = [2, 4, 8];
+
+/// A way to sample pictures.
+struct Way {
+    name: String,
+    /// The pictures, each with what it is called on the chart.
+    views: Vec<(String, View)>,
+}
+
+/// The ways to sample a scene that is seen like this.
+fn ways(view: &View) -> Vec<Way> {
+    let mut ways = Vec::new();
+    for (pattern, name) in PATTERNS {
+        for adaptive in [false, true] {
+            // One sample leaves nothing to be adapted.
+            let counts = Samples::ALL.into_iter().skip(usize::from(adaptive));
+            let of = |samples: Samples| {
+                let view = View {
+                    pattern,
+                    samples,
+                    adaptive,
+                    block: 1,
+                    ..*view
+                };
+                (samples.count().to_string(), view)
+            };
+            ways.push(Way {
+                name: format!("{name}{}", if adaptive { ", adaptive" } else { "" }),
+                views: counts.map(of).collect(),
+            });
+        }
+    }
+    let of = |block: u32| {
+        let view = View {
+            samples: Samples::One,
+            adaptive: true,
+            block,
+            ..*view
+        };
+        (format!("{block} x {block}"), view)
+    };
+    ways.push(Way {
+        name: "corners of blocks".into(),
+        views: BLOCKS.map(of).into(),
+    });
+    ways
+}
+
+/// The error of pictures in 1, 4, 16 and 64 samples of each pattern, the same for all pixels and as many as each needs, and in
+/// less than one, against milliseconds, scene by scene: one figure of the root mean square error of the light, one of the mean
+/// of FLIP. What is right is a picture of 1,024 samples in f64, with the scene's own filter, depth and cut-off. `progress` hears
+/// of the stages "rendering" and "measuring".
 ///
 /// # Errors
 /// [`MeasureError`].
@@ -31,7 +80,8 @@ pub fn image_error(plan: &Plan, progress: Progress<'_>) -> Result<[Figure; 2], M
     let [width, height] = plan.pictures.to_array();
     let explanation = format!(
         "Pictures of {width} x {height} pixels in 1, 4, 16 and 64 samples of a pixel, or up to as many where pixels get what they \
-         need (adaptive), against one of {} in double precision. Lower left is better; the numbers are those of the samples.",
+         need (adaptive), or in the corners of blocks that are interpolated where these agree, against one of {} in double \
+         precision. Lower left is better; the numbers are those of the samples, or the blocks' edges in pixels.",
         REFERENCE_SIDE * REFERENCE_SIDE,
     );
     let mut rmse = plan.figure(
@@ -58,35 +108,22 @@ pub fn image_error(plan: &Plan, progress: Progress<'_>) -> Result<[Figure; 2], M
         let wanted = sitter.wanted(&sitter.view, Takes::Grid(REFERENCE_SIDE), progress)?;
         for device in &plan.devices {
             let mut tracer = device.with(&sitter.scene)?;
-            let ways = PATTERNS.into_iter().flat_map(|way| [(way, false), (way, true)]);
-            for (done, ((pattern, name), adaptive)) in ways.enumerate() {
-                progress("measuring", done as f32 / (2 * PATTERNS.len()) as f32);
-                let name = if adaptive {
-                    format!("{name}, adaptive")
-                } else {
-                    name.into()
-                };
-                // One sample leaves nothing to be adapted.
-                for samples in Samples::ALL.into_iter().skip(usize::from(adaptive)) {
-                    let view = View {
-                        pattern,
-                        samples,
-                        adaptive,
-                        block: 1,
-                        ..sitter.view
-                    };
-                    let (comparison, milliseconds) = sitter.taken(&mut tracer, &view, &wanted, plan.repeats)?;
+            let ways = ways(&sitter.view);
+            for (done, way) in ways.iter().enumerate() {
+                progress("measuring", done as f32 / ways.len() as f32);
+                for (label, view) in &way.views {
+                    let (comparison, milliseconds) = sitter.taken(&mut tracer, view, &wanted, plan.repeats)?;
+                    let default = View::default();
                     let record = |error: f64| Record {
                         panel: sitter.name.clone(),
                         series: match plan.devices.len() {
-                            1 => name.clone(),
-                            _ => format!("{name}, {}", short_name(device)),
+                            1 => way.name.clone(),
+                            _ => format!("{}, {}", way.name, short_name(device)),
                         },
-                        label: samples.count().to_string(),
+                        label: label.clone(),
                         x: milliseconds,
                         y: Value::Number(error),
-                        is_marked: !adaptive
-                            && (pattern, samples) == (View::default().pattern, View::default().samples),
+                        is_marked: !view.adaptive && (view.pattern, view.samples) == (default.pattern, default.samples),
                     };
                     rmse.records.push(record(comparison.rmse));
                     flip.records.push(record(comparison.flip.mean));

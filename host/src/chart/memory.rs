@@ -82,7 +82,7 @@ fn settings() -> Vec<Setting> {
             TraversalKind::Octree => {
                 for leaf in [4, 8, 16] {
                     let mut options = of;
-                    options.octree.leaf = leaf;
+                    options.octree.leaf = Some(leaf);
                     settings.push((format!("leaf={leaf}"), options));
                 }
             }

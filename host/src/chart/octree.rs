@@ -6,6 +6,7 @@ use super::plan::{MeasureError, Plan, chart_name, mesh_name, quickest};
 use super::record::{Record, Value};
 use crate::backend::cpu::Cpu;
 use crate::bench::count;
+use crate::mesh::Mesh;
 use crate::octree::OctreeOptions;
 use crate::oracle::Oracle;
 use crate::progress::{Progress, silent};
@@ -31,6 +32,9 @@ const WORK: &str = "work";
 const MEMORY: &str = "memory";
 const REFERENCES: &str = "references";
 
+/// The series of what the cost model makes.
+const DEFAULT: &str = "cost model";
+
 /// A figure for each mesh of a plan, by the rays of [`fitted`] on the CPU. `progress` hears of the stage "measuring".
 ///
 /// # Errors
@@ -44,9 +48,9 @@ pub fn octree(plan: &Plan, progress: Progress<'_>) -> Result<Vec<Figure>, Measur
         let source = source.to_string();
         let name = mesh_name(&source);
         let explanation = format!(
-            "{name}, {} triangles; a line for each number of references up to which a cell is not split. Time and work of a ray \
-             in the mean of R1 to R4, on the CPU. The ring is what the octree has by default: as deep as its cost model finds \
-             that splitting pays, at most {MAX_DEPTH}.",
+            "{name}, {} triangles; a line for each number of references down to which every cell is split. Time and work of a \
+             ray in the mean of R1 to R4, on the CPU. The ring is what the octree has by default: split where that pays by its \
+             cost model, at the depth that this comes to.",
             mesh.triangles.len()
         );
         let stem = format!("octree-{}", chart_name(&source));
@@ -70,18 +74,7 @@ pub fn octree(plan: &Plan, progress: Progress<'_>) -> Result<Vec<Figure>, Measur
             for depth in DEPTHS {
                 progress("measuring", done as f32 / trees as f32);
                 done += 1;
-                let octree = OctreeOptions {
-                    depth,
-                    leaf,
-                    ..OctreeOptions::default()
-                };
-                let options = StructureOptions {
-                    parts: PARTS,
-                    octree,
-                    ..StructureOptions::default()
-                };
-                let scene = Scene::new(&mesh, &options, &silent)?;
-                let is_default = octree == OctreeOptions::default();
+                let scene = built(&mesh, depth, Some(leaf))?;
                 for (panel, y) in measured(plan, scene, &sets, mesh.triangles.len())? {
                     figure.records.push(Record {
                         panel: panel.into(),
@@ -89,17 +82,43 @@ pub fn octree(plan: &Plan, progress: Progress<'_>) -> Result<Vec<Figure>, Measur
                             1 => "1 reference a leaf".into(),
                             _ => format!("up to {leaf} references a leaf"),
                         },
-                        label: if is_default { "default".into() } else { String::new() },
+                        label: String::new(),
                         x: f64::from(depth),
                         y: Value::Number(y),
-                        is_marked: is_default,
+                        is_marked: false,
                     });
                 }
             }
         }
+        let scene = built(&mesh, MAX_DEPTH, None)?;
+        let depth = f64::from(scene.root.depth);
+        for (panel, y) in measured(plan, scene, &sets, mesh.triangles.len())? {
+            figure.records.push(Record {
+                panel: panel.into(),
+                series: DEFAULT.into(),
+                label: "default".into(),
+                x: depth,
+                y: Value::Number(y),
+                is_marked: true,
+            });
+        }
         figures.push(figure);
     }
     Ok(figures)
+}
+
+/// The octree down to a depth and a size of leaves, or to where the cost model ends it.
+fn built(mesh: &Mesh, depth: u32, leaf: Option<u32>) -> Result<Scene, MeasureError> {
+    let options = StructureOptions {
+        parts: PARTS,
+        octree: OctreeOptions {
+            depth,
+            leaf,
+            ..OctreeOptions::default()
+        },
+        ..StructureOptions::default()
+    };
+    Ok(Scene::new(mesh, &options, &silent)?)
 }
 
 fn measured(

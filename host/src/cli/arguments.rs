@@ -8,6 +8,7 @@ mod numbers;
 mod refusal;
 mod stability;
 mod trace;
+mod tune;
 mod values;
 
 pub use bench::{BenchArguments, BenchTable};
@@ -16,6 +17,7 @@ pub use compare::CompareArguments;
 pub use look::{LookArguments, StereoArgument};
 pub use stability::StabilityArguments;
 pub use trace::{RayArgument, TraceArguments, TraceSource};
+pub use tune::TuneArguments;
 pub use values::{Aovs, Grid, Octree, Size};
 
 use super::Failure;
@@ -26,6 +28,7 @@ use oktant::backend::BackendChoice;
 use oktant::backend::gpu::{GpuOptions, Kernel, ModulePath};
 use oktant::oracle::whitted::Takes;
 use oktant::output::Bits;
+use oktant::profile::Profile;
 use oktant::structure::StructureOptions;
 use oktant::tree::BuildPreset;
 use oktant_shared::parts::{BoxKind, Parts, TraversalKind, TriangleKind};
@@ -64,6 +67,8 @@ pub enum Command {
     Stability(StabilityArguments),
     /// Trace one ray, and print what it visits and what every test says of the triangles on its way.
     Trace(TraceArguments),
+    /// Measure what the work of rays costs on a device, and write it into a profile that others take by --profile.
+    Tune(TuneArguments),
     /// Read scene or mesh files with all that they refer to, and say what is in them, or what is wrong.
     Check(CheckArguments),
     /// List the parts that can be exchanged, and the combinations that are offered.
@@ -133,7 +138,7 @@ pub struct RenderArguments {
         require_equals = true,
         default_missing_value = "",
         value_parser = takes,
-        conflicts_with_all = ["backend", "spirv", "kernel", "repeat", "variant", "error", "block", "traversal", "triangle", "box_test", "build", "octree", "grid"],
+        conflicts_with_all = ["backend", "spirv", "kernel", "repeat", "variant", "error", "block", "traversal", "triangle", "box_test", "build", "octree", "grid", "profile"],
     )]
     pub reference: Option<Takes>,
 }
@@ -233,7 +238,7 @@ pub struct MeshArguments {
 }
 
 /// What rays are traced with.
-#[derive(Clone, Copy, Debug, Default, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub struct StructureArguments {
     /// The way through the scene; `oktant kernels` says more of it and the tests.
     #[arg(long, value_parser = traversal(), default_value = "octants")]
@@ -247,21 +252,24 @@ pub struct StructureArguments {
     /// What the build of a tree of boxes spends its time on.
     #[arg(long, value_parser = preset(), default_value = "balanced")]
     pub build: BuildPreset,
-    /// Limits of the octree, any of depth=0..13, leaf=N (cells with so few references are not split) and budget=N
-    /// (references per triangle at most), separated by commas.
+    /// Limits of the octree, any of depth=0..13, leaf=N (cells with more references are split, and no others, whatever it
+    /// costs) and budget=N (references per triangle at most), separated by commas.
     #[arg(long, value_name = "depth=D,leaf=N,budget=N", value_parser = octree, default_value = "")]
     pub octree: Octree,
     /// Limits of the grid, any of density=D (cells for each triangle, 0.01 to 100) and budget=N (references per triangle
     /// at most), separated by commas.
     #[arg(long, value_name = "density=D,budget=N", value_parser = grid, default_value = "")]
     pub grid: Grid,
+    /// What the work of rays costs on this device, as `oktant tune` measured it [default: what is the best on others].
+    #[arg(long, value_name = "PROFILE.toml")]
+    pub profile: Option<PathBuf>,
 }
 
 impl StructureArguments {
     /// What is to be built.
     ///
     /// # Errors
-    /// A combination that is not offered.
+    /// A combination that is not offered, or a broken profile.
     pub fn options(&self) -> Result<StructureOptions, Failure> {
         let parts = Parts {
             traversal: self.traversal,
@@ -271,12 +279,17 @@ impl StructureArguments {
         if !parts.is_offered() {
             return Err(Failure::usage(refusal(parts)));
         }
-        Ok(StructureOptions {
+        let mut options = StructureOptions {
             parts,
             preset: self.build,
             octree: self.octree.0,
             grid: self.grid.0,
-        })
+            ..StructureOptions::default()
+        };
+        if let Some(profile) = &self.profile {
+            options.apply(&Profile::read(profile)?);
+        }
+        Ok(options)
     }
 }
 

@@ -8,6 +8,7 @@ use oktant::backend::BackendChoice;
 use oktant::backend::gpu::Gpu;
 use oktant::bench::{BRUTE_BUDGET, Device, Plan, Report, Style, Workload, measure, tables, thesis};
 use oktant::output::TextFile;
+use oktant::profile::Profile;
 use oktant::ray_sets::SetKind;
 use oktant_shared::parts::Parts;
 use std::sync::Arc;
@@ -21,6 +22,7 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
         parts: chosen_parts(arguments)?,
         builds: without_repetition(&arguments.build),
         repeats: arguments.repeat,
+        profile: arguments.profile.as_deref().map(Profile::read).transpose()?,
     };
     let sets: Vec<SetKind> = arguments.sets.iter().map(|set| set.kind()).collect();
     let devices = devices(&arguments.engine)?;

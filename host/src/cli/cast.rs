@@ -44,7 +44,7 @@ pub fn run(arguments: &CastArguments) -> Result<(), Failure> {
     }
     let mesh = MeshArguments {
         mesh: Some(arguments.mesh.clone()),
-        structure: arguments.structure,
+        structure: arguments.structure.clone(),
     };
     let loaded = mesh.load()?;
     if loaded.scene.plane_count > 0 {

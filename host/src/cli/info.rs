@@ -4,8 +4,11 @@ use super::Failure;
 use super::arguments::InfoArguments;
 use glam::DVec3;
 use oktant::backend::gpu::{Gpu, GpuOptions, compiled_kernel};
+use oktant::costs::Costs;
 use oktant::scene::Memory;
-use oktant::structure::Figures;
+use oktant::structure::{Figures, StructureOptions};
+use oktant::tree::BuildPreset;
+use oktant_shared::parts::TraversalKind;
 use oktant_shared::variant::NEEDS;
 use std::fmt::Write;
 
@@ -63,6 +66,9 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         ),
     );
     line("leaves", histogram(&statistics));
+    if let Some(costs) = cost_model(&arguments.mesh.structure.options()?, &statistics) {
+        line("costs", costs);
+    }
     let memory = Memory::of(scene);
     let each = |bytes: usize| bytes as f64 / triangles;
     line(
@@ -160,6 +166,34 @@ fn needs(needs: u32) -> String {
         "one plain material, one light".into()
     } else {
         names.join(", ")
+    }
+}
+
+/// What decided where splitting ends, and what it expects.
+fn cost_model(options: &StructureOptions, statistics: &Figures) -> Option<String> {
+    let counted = |costs: &Costs, shipped: &Costs| {
+        let origin = if costs == shipped { "" } else { ", by the profile" };
+        format!("a triangle test as {:.2} steps{origin}", costs.triangle / costs.node)
+    };
+    match options.parts.traversal {
+        TraversalKind::Octree => {
+            let (steps, tests) = (statistics.expected_steps, statistics.expected_tests);
+            let costs = &options.octree.costs;
+            let decided = match options.octree.leaf {
+                None => format!("split where that pays, counting {}", counted(costs, &Costs::OCTREE)),
+                Some(leaf) => format!("split down to {leaf} references, whatever it costs"),
+            };
+            Some(format!(
+                "{decided}; a ray through the cube that nothing ends is expected to take {steps:.1} steps and {tests:.1} \
+                 triangle tests, {:.1} steps in all",
+                costs.of(steps, tests) / f64::from(costs.node)
+            ))
+        }
+        TraversalKind::Octants if options.preset != BuildPreset::Fast => Some(format!(
+            "leaves of as many triangles as pays, counting {}",
+            counted(&options.boxes, &Costs::OCTANTS)
+        )),
+        _ => None,
     }
 }
 

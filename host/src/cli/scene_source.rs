@@ -39,6 +39,8 @@ impl MeshArguments {
 
     /// Reads the scene and builds its structure, with progress on a terminal.
     pub fn load(&self) -> Result<Loaded, Failure> {
+        // First of all, so that nobody waits for a mesh that is not built upon.
+        let options = self.structure.options()?;
         let bar = ProgressBar::new();
         let start = Instant::now();
         let source = self.source();
@@ -48,10 +50,8 @@ impl MeshArguments {
         let mesh = &setting.model.mesh;
         let (triangles, vertices) = (mesh.triangles.len(), mesh.positions.len());
         let (has_colors, shift) = (!mesh.colors.is_empty(), mesh.shift);
-        let scene = Scene::of_model(setting.model, &self.structure.options()?, &|stage, fraction| {
-            bar.show(stage, fraction)
-        })
-        .map_err(|error| refused(source, error))?;
+        let scene = Scene::of_model(setting.model, &options, &|stage, fraction| bar.show(stage, fraction))
+            .map_err(|error| refused(source, error))?;
         Ok(Loaded {
             scene,
             view: setting.view,

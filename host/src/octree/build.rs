@@ -1,42 +1,23 @@
 //! Building an octree, level by level.
 
 use super::Octree;
+use super::options::OctreeOptions;
 use super::overlap::overlapped_children;
-use super::root::root;
+use super::prune::{CHILD_CHANCE, Cells, levels, pruned};
+use super::root::{no_deeper, root};
 use crate::build_error::BuildError;
 use crate::hittable::Hittable;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use glam::{UVec3, Vec3};
-use oktant_shared::octree::{CELL_MARGIN, INNER, MAX_DEPTH, Node, Root};
+use oktant_shared::octree::{CELL_MARGIN, INNER, Node, Root};
 use rayon::prelude::*;
 
-/// What limits an octree.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OctreeOptions {
-    /// Level beyond which no cell is split, 0 to [`MAX_DEPTH`].
-    pub depth: u32,
-    /// Cells with at most this many references are not split.
-    pub leaf: u32,
-    /// Hard limit of references, as a multiple of the triangles.
-    pub budget: u32,
-}
+/// Levels in a row at which splitting does not pay by itself that are looked through for one where it does.
+const PATIENCE: u32 = 2;
 
-impl Default for OctreeOptions {
-    /// Best on average over bunny and dragon; see `docs/measurements.md`.
-    fn default() -> Self {
-        OctreeOptions {
-            depth: MAX_DEPTH,
-            leaf: 8,
-            budget: 16,
-        }
-    }
-}
-
-/// Cost of visiting a cell in tests of a triangle, for the decision whether a split pays.
-const STEP_COST: f32 = 2.0;
-/// Part of the rays through a cell that also pass through a given child: the ratio of their surfaces.
-const CHILD_CHANCE: f32 = 0.25;
+/// References of a tree that is yet to be pruned, in budgets.
+const UNPRUNED: usize = 2;
 
 /// A cell that may yet be split.
 struct Open {
@@ -47,6 +28,8 @@ struct Open {
     /// Its references within the level's list.
     first: usize,
     count: usize,
+    /// Levels in a row, up to its parent's, at which splitting did not pay by itself.
+    vain: u32,
 }
 
 /// A way to split a cell.
@@ -57,28 +40,39 @@ struct Split {
     counts: [u32; 8],
     /// Sum of `counts`.
     total: usize,
+    /// [`Open::vain`] of the children.
+    vain: u32,
 }
 
 pub(super) fn build(mesh: &Mesh, options: &OctreeOptions, progress: Progress<'_>) -> Result<Octree, BuildError> {
     let hittable = Hittable::of(mesh)?;
     let root = root(hittable.low, hittable.high, options.depth)?;
     let budget = hittable.ids.len() * options.budget as usize;
-    let (nodes, references) = Levels {
+    let count = hittable.ids.len() as u32;
+    let cells = Levels {
         corners: &hittable.corners,
         root: &root,
-        leaf: options.leaf as usize,
-        budget,
-        nodes: vec![Node {
-            first: 0,
-            count: hittable.ids.len() as u32,
-        }],
-        references: Vec::new(),
+        options,
+        budget: if options.leaf.is_some() {
+            budget
+        } else {
+            UNPRUNED * budget
+        },
+        cells: Cells {
+            nodes: vec![Node { first: 0, count }],
+            counts: vec![count],
+            references: Vec::new(),
+        },
     }
     .split_all(hittable.ids, progress);
+    let cells = match options.leaf {
+        Some(_) => cells,
+        None => pruned(&cells, &options.costs, budget),
+    };
     Ok(Octree {
-        root,
-        nodes,
-        references,
+        root: no_deeper(root, u32::from(levels(&cells.nodes).into_iter().max().unwrap_or(0))),
+        nodes: cells.nodes,
+        references: cells.references,
         degenerate: hittable.degenerate,
         duplicates: hittable.duplicates,
     })
@@ -88,21 +82,22 @@ pub(super) fn build(mesh: &Mesh, options: &OctreeOptions, progress: Progress<'_>
 struct Levels<'a> {
     corners: &'a [[Vec3; 3]],
     root: &'a Root,
-    leaf: usize,
+    options: &'a OctreeOptions,
+    /// References at most.
     budget: usize,
-    nodes: Vec<Node>,
-    /// References of the finished leaves.
-    references: Vec<u32>,
+    /// What is finished.
+    cells: Cells,
 }
 
 impl Levels<'_> {
-    fn split_all(mut self, ids: Vec<u32>, progress: Progress<'_>) -> (Vec<Node>, Vec<u32>) {
+    fn split_all(mut self, ids: Vec<u32>, progress: Progress<'_>) -> Cells {
         let mut list = ids;
         let mut open = vec![Open {
             node: 0,
             place: UVec3::ZERO,
             first: 0,
             count: list.len(),
+            vain: 0,
         }];
         for level in 0..=self.root.depth {
             if open.is_empty() {
@@ -112,14 +107,23 @@ impl Levels<'_> {
             (open, list) = self.split_level(open, list, self.root.depth - level);
         }
         progress("building", 1.0);
-        (self.nodes, self.references)
+        self.cells
+    }
+
+    /// Whether splitting a cell may be worth it.
+    fn may_split(&self, cell: &Open) -> bool {
+        match self.options.leaf {
+            Some(leaf) => cell.count > leaf as usize,
+            // A split costs at least a step more.
+            None => self.options.costs.triangle * cell.count as f32 > self.options.costs.node,
+        }
     }
 
     /// Splits those cells of a level that are worth it, finishes the others, and returns the children with their list.
     /// The cells' edges are `2^size` smallest cells long.
     fn split_level(&mut self, open: Vec<Open>, list: Vec<u32>, size: u32) -> (Vec<Open>, Vec<u32>) {
         let masks = self.masks(&open, &list, size);
-        let mut splits = self.worthwhile(&open, &masks, size);
+        let mut splits = self.promising(&open, &masks, size);
         self.keep_budget(&open, &list, &mut splits);
 
         let mut next = Vec::with_capacity(splits.len() * 4);
@@ -128,11 +132,12 @@ impl Levels<'_> {
         for split in &splits {
             let cell = &open[split.cell];
             kept[split.cell] = false;
-            let first = self.nodes.len() as u32;
-            self.nodes[cell.node as usize] = Node { first, count: INNER };
+            let first = self.cells.nodes.len() as u32;
+            self.cells.nodes[cell.node as usize] = Node { first, count: INNER };
             for (child, count) in split.counts.iter().enumerate() {
                 let child = child as u32;
-                self.nodes.push(Node { first: 0, count: 0 });
+                self.cells.nodes.push(Node { first: 0, count: 0 });
+                self.cells.counts.push(*count);
                 if *count > 0 {
                     let upper = UVec3::new(child & 1, child >> 1 & 1, child >> 2);
                     next.push(Open {
@@ -140,6 +145,7 @@ impl Levels<'_> {
                         place: cell.place + (upper << (size - 1)),
                         first: length,
                         count: *count as usize,
+                        vain: split.vain,
                     });
                     length += *count as usize;
                 }
@@ -147,11 +153,12 @@ impl Levels<'_> {
         }
         for (cell, kept) in open.iter().zip(&kept) {
             if *kept {
-                self.nodes[cell.node as usize] = Node {
-                    first: self.references.len() as u32,
+                self.cells.nodes[cell.node as usize] = Node {
+                    first: self.cells.references.len() as u32,
                     count: cell.count as u32,
                 };
-                self.references
+                self.cells
+                    .references
                     .extend_from_slice(&list[cell.first..cell.first + cell.count]);
             }
         }
@@ -175,7 +182,7 @@ impl Levels<'_> {
                 if i >= open[cell].first + open[cell].count {
                     cell += 1;
                 }
-                if open[cell].count > self.leaf {
+                if self.may_split(&open[cell]) {
                     let place = open[cell].place;
                     let corner = Vec3::new(place.x as f32, place.y as f32, place.z as f32);
                     let center = self.root.low + corner * self.root.cell + half;
@@ -186,15 +193,15 @@ impl Levels<'_> {
         masks
     }
 
-    /// The splits that lower the expected cost of a ray through the cell (J. D. MacDonald and K. S. Booth, "Heuristics
-    /// for ray tracing using space subdivision", The Visual Computer 6, 1990).
-    fn worthwhile(&self, open: &[Open], masks: &[u8], size: u32) -> Vec<Split> {
+    /// The splits that may lower the expected cost of a ray through the cell, by themselves or with those below.
+    fn promising(&self, open: &[Open], masks: &[u8], size: u32) -> Vec<Split> {
         if size == 0 {
             return Vec::new();
         }
+        let costs = &self.options.costs;
         open.par_iter()
             .enumerate()
-            .filter(|(_, cell)| cell.count > self.leaf)
+            .filter(|(_, cell)| self.may_split(cell))
             .filter_map(|(index, cell)| {
                 let mut counts = [0_u32; 8];
                 for mask in &masks[cell.first..cell.first + cell.count] {
@@ -203,11 +210,14 @@ impl Levels<'_> {
                     }
                 }
                 let total = counts.iter().sum::<u32>() as usize;
-                let split_cost = STEP_COST + CHILD_CHANCE * total as f32;
-                (split_cost < cell.count as f32).then_some(Split {
+                let pays =
+                    costs.node + costs.triangle * (CHILD_CHANCE * total as f32) < costs.triangle * cell.count as f32;
+                let vain = if pays { 0 } else { cell.vain + 1 };
+                (self.options.leaf.is_some() || vain <= PATIENCE).then_some(Split {
                     cell: index,
                     counts,
                     total,
+                    vain,
                 })
             })
             .collect()
@@ -216,7 +226,7 @@ impl Levels<'_> {
     /// Drops the splits that multiply references most, until all fit the budget.
     fn keep_budget(&self, open: &[Open], list: &[u32], splits: &mut Vec<Split>) {
         let grown = |split: &Split| split.total.saturating_sub(open[split.cell].count);
-        let mut references = self.references.len() + list.len() + splits.iter().map(grown).sum::<usize>();
+        let mut references = self.cells.references.len() + list.len() + splits.iter().map(grown).sum::<usize>();
         if references <= self.budget {
             return;
         }

@@ -40,6 +40,16 @@ pub(crate) fn root(low: Vec3, high: Vec3, depth: u32) -> Result<Root, BuildError
     })
 }
 
+/// The same cube, whose smallest cells are those of a level that is not below its own.
+pub(crate) fn no_deeper(root: Root, depth: u32) -> Root {
+    Root {
+        // A power of two: as exact as before.
+        cell: root.cell * (1_u32 << (root.depth - depth)) as f32,
+        depth,
+        ..root
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -96,8 +96,7 @@ pub const SHADING_ROWS: &[Row] = &[
             };
             let tests: &[Test<Case>] = &[
                 ("from the surface that the normals describe", Role::Default, |case| {
-                    let origin = case.surface.shadow_point + case.surface.side * case.surface.clearance;
-                    let shadow = Ray::new(origin, case.light);
+                    let shadow = Ray::new(case.surface.shadow_origin, case.light);
                     Wrong::ray(Standard::any_hit(&case.scene.view(), &shadow), shadow)
                 }),
                 ("from the triangle", Role::Exhibit, |case| {

@@ -23,6 +23,11 @@ pub struct Figures {
     pub histogram: Vec<usize>,
     /// References of the fullest leaf.
     pub fullest: u32,
+    /// Of the octree: leaves that a ray through the root is expected to pass through if nothing ends it, by the surfaces of
+    /// cells.
+    pub expected_steps: f64,
+    /// Of the octree: triangles that it tests on this way.
+    pub expected_tests: f64,
 }
 
 impl Figures {
@@ -40,6 +45,10 @@ impl Figures {
                         open.extend((0..8).map(|child| (node.first + child, level + 1)));
                     } else {
                         figures.leaf(node.count, level);
+                        // A child's surface is a quarter of its parent's.
+                        let chance = 0.25_f64.powi(level as i32);
+                        figures.expected_steps += chance;
+                        figures.expected_tests += chance * f64::from(node.count);
                     }
                 }
                 TraversalKind::Octants | TraversalKind::Compact => {

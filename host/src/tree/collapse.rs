@@ -2,10 +2,10 @@
 
 use super::BuildPreset;
 use super::binary::{BinaryNode, BinaryTree};
-use super::metrics::Costs;
 use super::pages::zeroed;
 use super::slots::Placing;
 use super::wide::{MAX_LEAF, WIDTH};
+use crate::costs::Costs;
 use bytemuck::{Pod, Zeroable};
 use oktant_shared::octants::MAX_LEVEL;
 
@@ -42,7 +42,7 @@ impl Default for CollapseOptions {
     fn default() -> Self {
         CollapseOptions {
             leaf: 3,
-            costs: Costs::default(),
+            costs: Costs::OCTANTS,
             placing: Placing::default(),
             // With 128 bytes a node and 52 a triangle, 71.2 bytes in all.
             nodes: 0.15,

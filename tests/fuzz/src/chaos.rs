@@ -62,7 +62,7 @@ impl Chaos {
             preset: [BuildPreset::Fast, BuildPreset::Balanced, BuildPreset::Quality][usize::from(self.preset % 3)],
             octree: OctreeOptions {
                 depth: u32::from(self.depth) % (oktant_shared::octree::MAX_DEPTH + 1),
-                leaf: u32::from(self.leaf),
+                leaf: (self.leaf > 0).then_some(u32::from(self.leaf)),
                 ..OctreeOptions::default()
             },
             grid: GridOptions {

@@ -143,7 +143,8 @@ fn shown(mesh: &Mesh, seed: u64) -> Vec<Shown> {
             }
             let surface = Surface::new::<EVERYTHING>(&frame, &world, &ray, &hit);
             let flat = Surface {
-                shadow_point: surface.point,
+                shadow_origin: surface.front_origin(),
+                is_lifted: false,
                 ..surface
             };
             let viewer = Viewer {

@@ -77,7 +77,8 @@ fn each_surface_leaves_its_part() {
                 let seen = traced.color;
                 assert!(close(seen, expected), "{count} panes: {seen} and {expected}");
                 let cut = if is_cut { behind } else { Vec3::ZERO };
-                assert!(traced.cut.abs_diff_eq(cut, 1e-5), "{count} panes: {} cut", traced.cut);
+                let off = (traced.cut - cut.max_element()).abs();
+                assert!(off <= 1e-5, "{count} panes: {} cut", traced.cut);
             }
         }
     }

@@ -46,6 +46,9 @@ pub struct BenchArguments {
     /// Ways to build trees of boxes.
     #[arg(long, value_parser = preset(), value_delimiter = ',', default_value = "balanced")]
     pub build: Vec<BuildPreset>,
+    /// What the work of rays costs on this device, as `oktant tune` measured it [default: what is the best on others].
+    #[arg(long, value_name = "PROFILE.toml")]
+    pub profile: Option<PathBuf>,
     /// Size of the pictures in pixels, a primary ray each.
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "1280x968")]
     pub size: Size,

@@ -73,7 +73,7 @@ pub fn octree(text: &str) -> Result<Octree, String> {
         let value: u32 = value.trim().parse().map_err(|_| wanted)?;
         match name.trim() {
             "depth" if value <= MAX_DEPTH => options.depth = value,
-            "leaf" if value >= 1 => options.leaf = value,
+            "leaf" if value >= 1 => options.leaf = Some(value),
             "budget" if (1..=256).contains(&value) => options.budget = value,
             "depth" => return Err(format!("depth is at most {MAX_DEPTH}")),
             "leaf" => return Err("leaf is at least 1".into()),
@@ -223,7 +223,7 @@ mod tests {
     fn octree_limits() {
         assert_eq!(octree("").unwrap().0, OctreeOptions::default());
         let options = octree("depth=5, leaf=3").unwrap().0;
-        assert_eq!((options.depth, options.leaf), (5, 3));
+        assert_eq!((options.depth, options.leaf), (5, Some(3)));
         for bad in ["depth", "depth=14", "leaf=0", "budget=0", "size=3", "depth=-1"] {
             assert!(octree(bad).is_err(), "{bad}");
         }

@@ -1,7 +1,11 @@
 use super::*;
 use crate::model::{Focus, plain_material, white_light};
+use crate::progress::silent;
+use crate::scene::Scene;
+use crate::structure::StructureOptions;
 use bytemuck::Zeroable;
 use glam::{Vec2, vec2, vec3};
+use oktant_shared::medium::MAX_MATERIALS;
 use oktant_shared::texture::SRGB_IMAGE;
 
 /// A triangle, a plane, an image and a light of each kind.
@@ -199,4 +203,16 @@ fn planes_and_surroundings() {
         said(|model| model.focus = Some(nothing)),
         "what is looked at has no place or size"
     );
+}
+
+#[test]
+fn more_materials_than_are_told_apart_are_refused() {
+    let of = |count: u32| {
+        let mut model = model();
+        model.materials = vec![model.materials[0]; count as usize];
+        Scene::of_model(model, &StructureOptions::default(), &silent)
+    };
+    let refused = of(MAX_MATERIALS + 1).err().map(|error| error.to_string());
+    assert!(refused.is_some_and(|said| said.starts_with("The scene has 65536 materials, and at most 65535")));
+    assert!(of(MAX_MATERIALS).is_ok());
 }

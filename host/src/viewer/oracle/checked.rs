@@ -170,9 +170,9 @@ fn shadow_rays(scene: &Scene, frame: &Frame, hits: &[Hit]) -> Vec<Option<Ray>> {
         let pixel = uvec2(index as u32 % width, index as u32 / width);
         let ray = sample_ray(frame, pixel, 0);
         let surface = surface_of(frame, &world, &ray, &slots.placed(hit));
-        let origin = surface.shadow_point + surface.side * surface.clearance;
+        let origin = surface.shadow_origin;
         let incident = frame.light.incident(0, origin, frame.root.size());
-        let is_above = surface.side.dot(incident.direction) > 0.0 || surface.shadow_point != surface.point;
+        let is_above = surface.side.dot(incident.direction) > 0.0 || surface.is_lifted;
         let is_faced = surface.normal.dot(incident.direction) > 0.0 && incident.color != Vec3::ZERO;
         (is_above && is_faced).then_some(Ray {
             origin,
