@@ -61,6 +61,11 @@ impl Asset {
 
     /// What there is to see, and from where: what the file does not say is as for a mesh alone.
     pub fn into_setting(self) -> Setting {
+        self.into_setting_seen(View::default())
+    }
+
+    /// As [`Asset::into_setting`], with another view where the file does not say it.
+    pub fn into_setting_seen(self, mut view: View) -> Setting {
         let whole = self.mesh.bounding_sphere();
         let lights = self.lights;
         let mut model = Model::of_mesh(self.mesh);
@@ -74,7 +79,6 @@ impl Asset {
             model.textures = self.textures;
             model.texels = self.texels;
         }
-        let mut view = View::default();
         if let Some(camera) = self.camera {
             view.field_of_view = camera.field_of_view;
             // Where it looks past everything, it circles what is as far away as the middle of all.

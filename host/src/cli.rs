@@ -6,38 +6,54 @@ mod cast;
 mod chart;
 mod check;
 mod compare;
+mod config;
+mod configuration;
 mod engine;
+mod frames;
 mod info;
+mod interruption;
 mod kernels;
+mod man;
+mod prepared;
 mod progress_bar;
 mod reference;
 mod render;
+mod rendering_report;
 mod scene_source;
+mod sequence;
 mod stability;
 mod trace;
 mod tune;
 mod view;
 
-use arguments::{Arguments, Command, ViewArguments};
+use arguments::{Arguments, Command};
 use clap::{CommandFactory, Parser};
 use std::io::IsTerminal;
 use std::process::ExitCode;
-use tracing_subscriber::EnvFilter;
 
 /// Runs the command that the process was started with. The exit code is 0 where it succeeded, 2 where the command line
 /// is wrong, 1 for every other failure; a failure is told in one sentence on standard error.
 pub fn run() -> ExitCode {
     let arguments = Arguments::parse();
     tracing_subscriber::fmt()
-        .with_env_filter(
-            EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("warn,winit=error,softbuffer=error")),
-        )
+        .with_env_filter(arguments.verbosity.filter())
         .with_writer(std::io::stderr)
         .with_ansi(std::io::stderr().is_terminal())
         .without_time()
         .with_target(false)
         .init();
-    let result = match arguments.command.unwrap_or(Command::View(ViewArguments::default())) {
+    interruption::listen();
+    match configuration::complete(arguments.command).and_then(run_command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("oktant: {}", failure.sentence);
+            ExitCode::from(failure.code)
+        }
+    }
+}
+
+fn run_command(command: Command) -> Result<(), Failure> {
+    match command {
         Command::View(arguments) => view::run(&arguments),
         Command::Render(arguments) => match arguments.reference {
             Some(takes) => reference::run(&arguments, takes),
@@ -51,19 +67,14 @@ pub fn run() -> ExitCode {
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Tune(arguments) => tune::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Config(arguments) => config::run(&arguments),
         Command::Kernels(arguments) => kernels::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
+        Command::Man(arguments) => man::run(&arguments),
         Command::Completions { shell } => {
             let mut completions = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "oktant", &mut completions);
             print(&String::from_utf8_lossy(&completions))
-        }
-    };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            eprintln!("oktant: {}", failure.sentence);
-            ExitCode::from(failure.code)
         }
     }
 }

@@ -48,18 +48,35 @@ impl Effort {
                     mean_steps: off,
                 }
             })
-            .reduce(Effort::default, |a, b| Effort {
-                closest: a.closest + b.closest,
-                shadow: a.shadow + b.shadow,
-                greatest_cut: a.greatest_cut.max(b.greatest_cut),
-                mean_cut: a.mean_cut + b.mean_cut,
-                greatest_steps: a.greatest_steps.max(b.greatest_steps),
-                mean_steps: a.mean_steps + b.mean_steps,
-            });
-        let pixels = picture.sums.len().max(1) as f64;
-        effort.mean_cut /= pixels;
-        effort.mean_steps /= pixels;
+            .reduce(Effort::default, Effort::plus);
+        effort.divide_means(picture.sums.len());
         effort
+    }
+
+    /// Of some pictures of the same size, as if they were one.
+    pub fn together(efforts: &[Effort]) -> Self {
+        let mut effort = efforts.iter().copied().fold(Effort::default(), Effort::plus);
+        effort.divide_means(efforts.len());
+        effort
+    }
+
+    /// The greater bounds of two, and the sums of all else.
+    fn plus(self, other: Self) -> Self {
+        Effort {
+            closest: self.closest + other.closest,
+            shadow: self.shadow + other.shadow,
+            greatest_cut: self.greatest_cut.max(other.greatest_cut),
+            mean_cut: self.mean_cut + other.mean_cut,
+            greatest_steps: self.greatest_steps.max(other.greatest_steps),
+            mean_steps: self.mean_steps + other.mean_steps,
+        }
+    }
+
+    /// Makes means of sums over so many.
+    fn divide_means(&mut self, count: usize) {
+        let count = count.max(1) as f64;
+        self.mean_cut /= count;
+        self.mean_steps /= count;
     }
 
     /// Both kinds of rays.
@@ -116,6 +133,30 @@ mod tests {
                 mean_steps: 0.0,
             }
         );
+    }
+
+    #[test]
+    fn pictures_are_summed_up() {
+        let of = |number: f64| Effort {
+            closest: number,
+            shadow: 2.0 * number,
+            greatest_cut: 0.5 / number,
+            mean_cut: 0.25 / number,
+            greatest_steps: number,
+            mean_steps: number / 2.0,
+        };
+        assert_eq!(
+            Effort::together(&[of(1.0), of(4.0)]),
+            Effort {
+                closest: 5.0,
+                shadow: 10.0,
+                greatest_cut: 0.5,
+                mean_cut: 0.15625,
+                greatest_steps: 4.0,
+                mean_steps: 1.25,
+            }
+        );
+        assert_eq!(Effort::together(&[]), Effort::default());
     }
 
     /// Mirrors that reflect all, between two planes of radiance 1 in a black environment: whatever is cut is missing.

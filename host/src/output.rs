@@ -1,32 +1,51 @@
 //! Writing files so that nothing is ever half written.
 
+mod animation_files;
+mod animation_format;
 mod aov_png;
+mod apng;
 mod format;
+mod frame_names;
+mod gif;
 mod hits_file;
 mod open_exr;
 mod png;
 mod rendering_files;
 mod text_file;
+mod unfinished;
 
+pub use animation_files::{AnimationFiles, Settings as AnimationSettings};
+pub use animation_format::AnimationFormat;
 pub use format::{Bits, Format, FormatError};
+pub use frame_names::FrameNames;
 pub use hits_file::{HitsFile, face_normal};
 pub use rendering_files::{RenderingFiles, Written};
 pub use text_file::TextFile;
+pub use unfinished::abandon;
 
 use self::png::{Pixels, Png};
+use self::unfinished::{Unfinished, undisturbed};
 use crate::picture::Picture;
 use crate::tone::Tone;
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 /// A picture file in the making: a temporary file beside it, which takes its name when the picture is complete and
-/// vanishes otherwise.
+/// vanishes otherwise. Standard output gets all of it at once, when it is complete.
 #[derive(Debug)]
 pub struct PictureFile {
     path: PathBuf,
-    temporary: NamedTempFile,
+    store: Store,
+}
+
+/// Where the content is until it is complete.
+#[derive(Debug)]
+enum Store {
+    Beside(NamedTempFile, Unfinished),
+    /// A file without a name.
+    Unnamed(File),
 }
 
 /// Why a file could not be written.
@@ -72,14 +91,30 @@ impl PictureFile {
             // What any new file gets; the process's mask still applies.
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
-        let temporary = builder.tempfile_in(folder).map_err(|source| OutputError::Io {
+        let made = Unfinished::create(|| builder.tempfile_in(folder));
+        let (temporary, unfinished) = made.map_err(|source| OutputError::Io {
             path: path.to_path_buf(),
             source,
         })?;
         Ok(PictureFile {
             path: path.to_path_buf(),
-            temporary,
+            store: Store::Beside(temporary, unfinished),
         })
+    }
+
+    /// A file for whoever reads standard output.
+    ///
+    /// # Errors
+    /// [`OutputError`] where there is no place to keep the content until it is complete.
+    pub fn standard_output() -> Result<Self, OutputError> {
+        let path = PathBuf::from("standard output");
+        match tempfile::tempfile() {
+            Ok(file) => Ok(PictureFile {
+                path,
+                store: Store::Unnamed(file),
+            }),
+            Err(source) => Err(OutputError::Io { path, source }),
+        }
     }
 
     /// Writes the picture as a toned, sRGB-encoded PNG of 8 bits and gives the file its name.
@@ -107,26 +142,65 @@ impl PictureFile {
 
     /// Writes what is to be in the file, all the way to the disk.
     fn write(&mut self, content: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result<(), OutputError> {
-        let file = self.temporary.as_file();
+        let file = self.file();
         let mut writer = BufWriter::new(file);
         content(&mut writer)
             .and_then(|()| writer.flush())
             .and_then(|()| file.sync_all())
-            .map_err(|source| OutputError::Io {
-                path: self.path.clone(),
-                source,
-            })
+            .map_err(|source| self.failed(source))
+    }
+
+    fn file(&self) -> &File {
+        match &self.store {
+            Store::Beside(temporary, _) => temporary.as_file(),
+            Store::Unnamed(file) => file,
+        }
+    }
+
+    fn failed(&self, source: io::Error) -> OutputError {
+        OutputError::Io {
+            path: self.path.clone(),
+            source,
+        }
     }
 
     /// Gives the file its name.
     fn publish(self) -> Result<(), OutputError> {
-        self.temporary
-            .persist(&self.path)
-            .map(drop)
-            .map_err(|error| OutputError::Io {
-                path: self.path,
+        publish([self])
+    }
+}
+
+/// Gives files their names, all of them in one go; what is for standard output is sent there.
+fn publish(files: impl IntoIterator<Item = PictureFile>) -> Result<(), OutputError> {
+    let mut named = Vec::new();
+    for mut file in files {
+        match file.store {
+            Store::Beside(temporary, unfinished) => named.push((file.path, temporary, unfinished)),
+            Store::Unnamed(ref mut content) => send(content).map_err(|source| file.failed(source))?,
+        }
+    }
+    // Outlive the time in which nobody may take note of files.
+    let mut done = Vec::with_capacity(named.len());
+    let mut rest = named.into_iter();
+    undisturbed(|| {
+        for (path, temporary, unfinished) in rest.by_ref() {
+            done.push(unfinished);
+            temporary.persist(&path).map_err(|error| OutputError::Io {
+                path,
                 source: error.error,
-            })
+            })?;
+        }
+        Ok(())
+    })
+}
+
+/// Sends a file to standard output; whoever closed it early wants no more.
+fn send(content: &mut File) -> io::Result<()> {
+    content.rewind()?;
+    let mut output = io::stdout().lock();
+    match io::copy(content, &mut output).and_then(|_| output.flush()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        result => result.map(drop),
     }
 }
 

@@ -7,68 +7,48 @@ mod color;
 mod cuboid;
 mod description;
 mod deserializer;
-mod document;
+pub(crate) mod document;
 mod environment;
-mod fault;
+pub(crate) mod fault;
 mod folder;
 mod lathe;
 mod light;
 mod material;
 mod mesh;
-mod number;
-mod place;
+pub(crate) mod number;
+pub(crate) mod place;
 mod plane;
 mod quad;
 mod render;
 mod sphere;
 mod stereo;
 mod texture;
-mod vector;
+pub(crate) mod vector;
 
 use crate::build_error::BuildError;
 use crate::progress::Progress;
 use crate::scene::SceneError;
 use crate::source::Setting;
+use crate::toml_file::{Subject, TomlFileError};
 use assembly::MOST;
 use description::Description;
-use document::Document;
 use folder::Folder;
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// Scene files are not larger than this, bytes.
-const LARGEST: u64 = 16 << 20;
+/// What such a file describes.
+const SUBJECT: Subject = Subject {
+    file: "scene file",
+    whole: "the scene",
+    relief: "put large meshes into PLY files",
+    top_fields: &["up", "ambient"],
+};
 
 /// Why a scene file cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneFileError {
-    /// The system does not give it.
-    #[error("{}: the scene file cannot be read ({reason}); check the path", path.display())]
-    Unreadable {
-        /// The scene file.
-        path: PathBuf,
-        /// What the system says.
-        reason: io::Error,
-    },
-    /// It is no text.
-    #[error("{}: this is no text in UTF-8; give a scene file", .0.display())]
-    NotText(PathBuf),
-    /// It is too long for something that a person wrote.
-    #[error("{}: a scene file has at most {LARGEST} bytes; put large meshes into PLY files", .0.display())]
-    TooLong(PathBuf),
-    /// It is not TOML.
-    #[error("{}:{line}:{column}: this is not TOML ({message}); correct it", path.display())]
-    Syntax {
-        /// The scene file.
-        path: PathBuf,
-        /// From 1.
-        line: usize,
-        /// From 1, in characters.
-        column: usize,
-        /// What the parser says.
-        message: String,
-    },
+    /// It cannot be read, or what it says cannot be.
+    #[error(transparent)]
+    File(#[from] TomlFileError),
     /// There is nothing in it that a ray can meet.
     #[error(
         "{}: no triangle of the scene has an area, so there is nothing to see; add a shape or a mesh that has one",
@@ -82,18 +62,6 @@ pub enum SceneFileError {
         path: PathBuf,
         /// What is wrong.
         error: SceneError,
-    },
-    /// What it says cannot be.
-    #[error("{}:{line}:{column}: {sentence}", path.display())]
-    Content {
-        /// The scene file.
-        path: PathBuf,
-        /// From 1.
-        line: usize,
-        /// From 1, in characters.
-        column: usize,
-        /// Which field is wrong, why, and what to do.
-        sentence: String,
     },
 }
 
@@ -114,7 +82,7 @@ impl SceneFileError {
 /// # Errors
 /// Says in one sentence what is wrong first, where, and what to do.
 pub fn read(path: &Path, progress: Progress<'_>) -> Result<Setting, SceneFileError> {
-    let text = load(path)?;
+    let text = SUBJECT.load(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut setting = of_text(&text, path, Folder(Some(folder)), MOST, progress)?;
     setting.files.insert(0, path.to_path_buf());
@@ -137,36 +105,9 @@ fn of_text(
     most: usize,
     progress: Progress<'_>,
 ) -> Result<Setting, SceneFileError> {
-    let document = Document::parse(text).map_err(|(position, message)| SceneFileError::Syntax {
-        path: path.to_path_buf(),
-        line: position.line,
-        column: position.column,
-        message,
+    let setting = SUBJECT.parse(text, path, |document| {
+        let description = document.deserialize::<Description>()?;
+        assembly::assemble(&description, folder, most, progress)
     })?;
-    let setting = document
-        .deserialize::<Description>()
-        .and_then(|description| assembly::assemble(&description, folder, most, progress));
-    setting.map_err(|mut fault| {
-        let position = document.locate(&mut fault);
-        SceneFileError::Content {
-            path: path.to_path_buf(),
-            line: position.line,
-            column: position.column,
-            sentence: fault.to_string(),
-        }
-    })
-}
-
-fn load(path: &Path) -> Result<String, SceneFileError> {
-    let unreadable = |reason| SceneFileError::Unreadable {
-        path: path.to_path_buf(),
-        reason,
-    };
-    let file = File::open(path).map_err(unreadable)?;
-    let mut bytes = Vec::new();
-    file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    if bytes.len() as u64 > LARGEST {
-        return Err(SceneFileError::TooLong(path.to_path_buf()));
-    }
-    String::from_utf8(bytes).map_err(|_| SceneFileError::NotText(path.to_path_buf()))
+    Ok(setting)
 }

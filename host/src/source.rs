@@ -3,9 +3,11 @@
 use crate::mesh_format::MeshFormat;
 use crate::mesh_source::{MeshError, MeshSource};
 use crate::model::Model;
+use crate::preferences::Preferences;
 use crate::progress::Progress;
 use crate::scene_file::{self, SceneFileError};
 use crate::view::View;
+use oktant_shared::orbit::Up;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -72,7 +74,13 @@ impl Source {
     /// [`SourceError`].
     pub fn load(&self, progress: Progress<'_>) -> Result<Setting, SourceError> {
         Ok(match self {
-            Source::Mesh(mesh) => mesh.load_asset(progress)?.into_setting(),
+            Source::Mesh(mesh) => {
+                let mut view = Preferences::of_process().view;
+                if self.says_up() {
+                    view.up = Up::Y;
+                }
+                mesh.load_asset(progress)?.into_setting_seen(view)
+            }
             Source::Scene(path) => scene_file::read(path, progress)?,
         })
     }

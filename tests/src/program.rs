@@ -68,6 +68,7 @@ pub fn run<A: AsRef<OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = A
 /// # Panics
 /// Where it cannot be started.
 pub fn finish(command: &mut Command) -> Run {
+    forget_preferences(command);
     let start = Instant::now();
     let child = command
         .stdin(Stdio::null())
@@ -92,6 +93,19 @@ pub fn finish(command: &mut Command) -> Run {
         output: String::from_utf8_lossy(&output.stdout).into_owned(),
         error: String::from_utf8_lossy(&output.stderr).into_owned(),
         memory: watch.join().expect("watching does not fail"),
+    }
+}
+
+/// Lets a run know nothing of what the person who runs the tests prefers, unless it is told itself.
+fn forget_preferences(command: &mut Command) {
+    let told: Vec<_> = command.get_envs().map(|(name, _)| name.to_os_string()).collect();
+    for (name, _) in std::env::vars_os() {
+        if name.to_string_lossy().starts_with("OKTANT_") && !told.contains(&name) {
+            command.env_remove(name);
+        }
+    }
+    if !told.iter().any(|name| name == "OKTANT_CONFIG") {
+        command.env("OKTANT_CONFIG", "");
     }
 }
 

@@ -295,3 +295,55 @@ fn help_version_and_completions_are_printed() {
         assert!(completions.output.contains("light-azimuth"), "{shell}");
     }
 }
+
+#[test]
+fn manual_pages_are_printed_and_written() {
+    let folder = folder();
+    let of_program = run(folder.path(), ["man"]);
+    assert_eq!(of_program.code, Some(0));
+    assert!(of_program.output.contains(".TH oktant 1"), "{}", of_program.output);
+    let of_render = run(folder.path(), ["man", "render"]);
+    assert!(
+        of_render.output.contains("\\-\\-light\\-azimuth"),
+        "{}",
+        of_render.output
+    );
+    fs::create_dir(folder.path().join("man1")).unwrap();
+    let written = run(folder.path(), ["man", "-o", "man1"]);
+    assert_eq!(written.code, Some(0), "{}", written.error);
+    let page = |name: &str| fs::read_to_string(folder.path().join("man1").join(name)).unwrap();
+    assert_eq!(page("oktant.1"), of_program.output);
+    assert_eq!(page("oktant-render.1"), of_render.output);
+    let names = names(&folder.path().join("man1"));
+    assert_eq!(written.error, format!("man1: {} pages\n", names.len()));
+    assert!(names.iter().all(|name| name.ends_with(".1")), "{names:?}");
+    let unknown = run(folder.path(), ["man", "draw"]);
+    assert_eq!(unknown.code, Some(2));
+    assert!(unknown.error.contains("render"), "{}", unknown.error);
+    let missing = run(folder.path(), ["man", "-o", "missing"]);
+    assert_eq!(missing.code, Some(1));
+    assert!(
+        missing.error.contains("The folder missing does not exist"),
+        "{}",
+        missing.error
+    );
+}
+
+#[test]
+fn how_much_is_told_can_be_said() {
+    let folder = folder();
+    let render = ["render", "triangle.ply", "--backend=cpu", "--size=8x6", "-o", "a.png"];
+    let told = |more: &[&str]| run(folder.path(), [&render[..], more].concat()).error;
+    assert_eq!(told(&[]).lines().count(), 1, "{}", told(&[]));
+    assert!(told(&["-v"]).contains("INFO read in "), "{}", told(&["-v"]));
+    let surplus = ply(3, "3 0 1 2\n") + "and more\n";
+    fs::write(folder.path().join("surplus.ply"), surplus).unwrap();
+    let warned = |more: &[&str]| run(folder.path(), [more, &["check", "surplus.ply"]].concat()).error;
+    assert!(
+        warned(&[]).contains("after the last element are ignored"),
+        "{}",
+        warned(&[])
+    );
+    assert_eq!(warned(&["--quiet"]), "");
+    assert_eq!(run(folder.path(), ["-q", "-v", "info", "balls"]).code, Some(2));
+}

@@ -24,7 +24,7 @@ fn pictures(text: &str) -> Vec<&str> {
     let links = text.split("](").skip(1).filter_map(|rest| rest.split_once(')'));
     links
         .map(|(link, _)| link)
-        .filter(|link| link.ends_with(".png"))
+        .filter(|link| link.ends_with(".png") || link.ends_with(".gif"))
         .collect()
 }
 
@@ -110,7 +110,8 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 
 #[test]
 fn the_page_is_read_as_it_is_meant() {
-    let text = "a\n```\noktant render x.toml -o docs/gallery/x.png\n```\n![x](gallery/x.png) ![y](gallery/y.png)\n";
+    let text =
+        "a\n```\noktant render x.toml -o docs/gallery/x.png\n```\n![x](gallery/x.png) ![y](gallery/y.gif) [z](z.md)\n";
     assert_eq!(commands(text), [["render", "x.toml", "-o", "docs/gallery/x.png"]]);
-    assert_eq!(pictures(text), ["gallery/x.png", "gallery/y.png"]);
+    assert_eq!(pictures(text), ["gallery/x.png", "gallery/y.gif"]);
 }

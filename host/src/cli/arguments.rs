@@ -3,6 +3,8 @@
 mod bench;
 mod chart;
 mod compare;
+mod files;
+mod frames;
 mod look;
 mod numbers;
 mod refusal;
@@ -10,15 +12,19 @@ mod stability;
 mod trace;
 mod tune;
 mod values;
+mod verbosity;
 
 pub use bench::{BenchArguments, BenchTable};
 pub use chart::{ChartArguments, ChartKind};
 pub use compare::CompareArguments;
-pub use look::{LookArguments, StereoArgument};
+pub use files::FileArguments;
+pub use frames::{FrameArguments, FrameRange};
+pub use look::LookArguments;
 pub use stability::StabilityArguments;
 pub use trace::{RayArgument, TraceArguments, TraceSource};
 pub use tune::TuneArguments;
-pub use values::{Aovs, Grid, Octree, Size};
+pub use values::{Grid, Octree, Size};
+pub use verbosity::Verbosity;
 
 use super::Failure;
 use super::engine::EngineOptions;
@@ -27,7 +33,6 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use oktant::backend::BackendChoice;
 use oktant::backend::gpu::{GpuOptions, Kernel, ModulePath};
 use oktant::oracle::whitted::Takes;
-use oktant::output::Bits;
 use oktant::profile::Profile;
 use oktant::structure::StructureOptions;
 use oktant::tree::BuildPreset;
@@ -36,24 +41,26 @@ use oktant_shared::variant::Variant;
 use refusal::refusal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use values::{aovs, box_test, grid, octree, preset, size, takes, traversal, triangle};
+use values::{box_test, grid, octree, preset, size, takes, traversal, triangle};
 
 /// Interactive ray tracer of triangle meshes whose GPU kernel is written in Rust.
 ///
 /// Without a command, opens the viewer on the Stanford bunny, which is part of the program. Where there is no display,
 /// it renders the picture into oktant.png instead.
 #[derive(Debug, Parser)]
-#[command(version, about, max_term_width = 110, args_conflicts_with_subcommands = true)]
+#[command(version, about, max_term_width = 110)]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Option<Command>,
+    #[command(flatten)]
+    pub verbosity: Verbosity,
 }
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Look at a scene or mesh in a window (H lists the keys).
     View(ViewArguments),
-    /// Render a picture of a scene or mesh into a PNG or EXR file.
+    /// Render a picture of a scene or mesh into a PNG or EXR file, or many along a path of the camera.
     Render(RenderArguments),
     /// Trace rays from a file at a scene or mesh, and write where they hit into a file.
     Cast(CastArguments),
@@ -75,6 +82,10 @@ pub enum Command {
     Kernels(KernelsArguments),
     /// Print the figures of a scene or mesh and of its octree, and the adapters at hand.
     Info(InfoArguments),
+    /// Say what is preferred in the configuration file and the environment; docs/configuration.md says more.
+    Config(ConfigArguments),
+    /// Print the manual page of a command, for example: oktant man render | man -l -
+    Man(ManArguments),
     /// Print the completions of a shell, for example: oktant completions bash > ~/.bash_completion
     Completions {
         /// The shell.
@@ -115,6 +126,8 @@ pub struct RenderArguments {
     pub mesh: MeshArguments,
     #[command(flatten)]
     pub files: FileArguments,
+    #[command(flatten)]
+    pub frames: FrameArguments,
     /// Size of the picture in pixels [default: as the scene says, else 1280x968].
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
@@ -125,6 +138,9 @@ pub struct RenderArguments {
     /// Render so many times and print the times of the kernel: median, least and greatest.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub repeat: u32,
+    /// Say what was rendered as JSON, on standard output: files, rays, times, bounds of what was cut.
+    #[arg(long, conflicts_with = "reference")]
+    pub json: bool,
     /// Variant of the kernel: the least that does all that the scene needs, or a greater one, for comparison
     /// [default: the least].
     #[arg(long, value_enum)]
@@ -188,31 +204,24 @@ pub struct CastArguments {
     pub repeat: Option<u32>,
 }
 
-/// Which files a picture becomes.
 #[derive(Debug, Args)]
-pub struct FileArguments {
-    /// The picture: a PNG file, or an EXR file, which holds the light as it is. An existing one is replaced once the new
-    /// one is complete. Of --stereo sequential the names get -left and -right at their ends.
-    #[arg(short, long, value_name = "OUT.png|OUT.exr")]
-    pub output: PathBuf,
-    /// Bits of each channel in a PNG file [default: 8].
-    #[arg(long, value_enum)]
-    pub bits: Option<Bits>,
-    /// What to write beside the colour, as layers of an EXR file or as files OUT-depth.png and so on beside a PNG file:
-    /// any of depth, normal, id, barycentrics, samples and rays, separated by commas, or all.
-    #[arg(long, value_name = "LIST|all", value_parser = aovs, default_value = "", hide_default_value = true)]
-    pub aov: Aovs,
+pub struct ConfigArguments {
+    /// Print the path of the file alone, there or not.
+    #[arg(long, conflicts_with = "json")]
+    pub path: bool,
+    /// Print everything as JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
-impl FileArguments {
-    /// A picture and nothing else.
-    pub fn picture(output: impl Into<PathBuf>) -> Self {
-        FileArguments {
-            output: output.into(),
-            bits: None,
-            aov: Aovs::default(),
-        }
-    }
+#[derive(Debug, Args)]
+pub struct ManArguments {
+    /// The command whose page is printed; without one, that of the program.
+    #[arg(conflicts_with = "output")]
+    pub command: Option<String>,
+    /// Write the pages of all commands into this folder, as oktant-render.1 and so on.
+    #[arg(short, long, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -52,6 +52,7 @@ impl Engine {
             },
             BackendChoice::Auto | BackendChoice::Gpu => engine.kind = gpu()?,
         }
+        tracing::info!("rendered by {}", engine.name());
         Ok(engine)
     }
 

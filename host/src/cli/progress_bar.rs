@@ -1,6 +1,7 @@
 //! Progress on a terminal.
 
 use indicatif::ProgressStyle;
+use std::borrow::Cow;
 use std::sync::Mutex;
 use std::sync::PoisonError;
 use std::time::{Duration, Instant};
@@ -25,7 +26,7 @@ impl ProgressBar {
     }
 
     /// Shows how far a stage is, 0 to 1.
-    pub fn show(&self, stage: &'static str, fraction: f32) {
+    pub fn show(&self, stage: impl Into<Cow<'static, str>>, fraction: f32) {
         if self.start.elapsed() < PATIENCE {
             return;
         }

@@ -1,15 +1,13 @@
 //! `oktant render --reference`.
 
 use super::Failure;
-use super::arguments::{RenderArguments, Size, StereoArgument};
+use super::arguments::{RenderArguments, Size};
 use super::progress_bar::ProgressBar;
-use super::render::{check_halves, counted, describe, for_view, format, pictures, told};
+use super::render::{check_halves, counted, create, describe, for_view, format, pictures, told};
 use super::scene_source::refused;
 use oktant::effort::Effort;
 use oktant::oracle::whitted::{Reference, Takes};
-use oktant::output::RenderingFiles;
 use oktant::seen::Seen;
-use oktant::stereo::StereoMode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -31,16 +29,19 @@ pub fn run(arguments: &RenderArguments, takes: Takes) -> Result<(), Failure> {
         ));
     }
     let format = format(files, look)?;
+    files.check_standard_output(false)?;
     let aovs = files.aov.0.as_slice();
-    let create = |is_pair| RenderingFiles::create(&files.output, format, aovs, is_pair);
-    let mut output = create(look.stereo == Some(StereoArgument(Some(StereoMode::Sequential))))?;
+    let mut output = create(files, format, look.asks_for_pair())?;
     let bar = ProgressBar::new();
     let setting = source.load(&|stage, fraction| bar.show(stage, fraction))?;
-    let size = arguments.size.or(setting.size.map(Size::from)).unwrap_or_default();
+    let size = arguments
+        .size
+        .or(setting.size.map(Size::from))
+        .unwrap_or_else(Size::preferred);
     let view = look.applied(setting.view);
     look.check_eyes(view.stereo.is_some())?;
     look.check_sampling(false)?;
-    output = for_view(output, &view, create)?;
+    output = for_view(output, &view, |is_pair| create(files, format, is_pair))?;
     check_halves(&view, size)?;
     let reference = Reference::new(Arc::new(setting.model)).map_err(|error| refused(source, error))?;
     let sitting = reference.sitting(&view, [size.width, size.height], takes);

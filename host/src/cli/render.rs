@@ -1,131 +1,138 @@
 //! `oktant render`.
 
 use super::Failure;
-use super::arguments::{
-    EngineArguments, FileArguments, LookArguments, MeshArguments, RenderArguments, Size, StereoArgument,
-};
+use super::arguments::{EngineArguments, FileArguments, LookArguments, MeshArguments, RenderArguments, Size};
 use super::engine::Engine;
+use super::frames;
+use super::prepared::{Prepared, is_pair};
 use super::progress_bar::ProgressBar;
+use super::rendering_report::{Figures, RenderingReport};
 use oktant::effort::Effort;
-use oktant::output::{Format, OutputError, RenderingFiles, Written};
-use oktant::scene::Scene;
-use oktant::seen::Seen;
+use oktant::output::{Format, RenderingFiles, Written};
 use oktant::stereo::StereoMode;
 use oktant::view::View;
-use oktant_shared::parts::Parts;
 use oktant_shared::variant::Variant;
-use std::sync::Arc;
-use std::time::Instant;
 
 pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
-    render(
-        &arguments.mesh,
-        &arguments.files,
-        arguments.size,
-        &arguments.look,
-        &arguments.engine,
-        arguments.repeat,
-        arguments.variant.map(|variant| variant.0),
-    )
+    if let Some(range) = &arguments.frames.frames {
+        return frames::run(arguments, range);
+    }
+    render(&Order {
+        mesh: &arguments.mesh,
+        files: &arguments.files,
+        size: arguments.size,
+        look: &arguments.look,
+        engine: &arguments.engine,
+        repeat: arguments.repeat,
+        variant: arguments.variant.map(|variant| variant.0),
+        json: arguments.json,
+    })
+}
+
+/// A picture that is asked for.
+pub struct Order<'a> {
+    pub mesh: &'a MeshArguments,
+    pub files: &'a FileArguments,
+    pub size: Option<Size>,
+    pub look: &'a LookArguments,
+    pub engine: &'a EngineArguments,
+    /// How often its kernel is timed, where more than once.
+    pub repeat: u32,
+    pub variant: Option<Variant>,
+    /// Whether standard output is told of it as JSON.
+    pub json: bool,
 }
 
 /// Renders a picture into its files and says what was done.
-pub fn render(
-    mesh: &MeshArguments,
-    files: &FileArguments,
-    size: Option<Size>,
-    look: &LookArguments,
-    engine: &EngineArguments,
-    repeat: u32,
-    variant: Option<Variant>,
-) -> Result<(), Failure> {
+pub fn render(order: &Order<'_>) -> Result<(), Failure> {
+    let Order { mesh, files, look, .. } = order;
     look.check(&mesh.source())?;
     let format = format(files, look)?;
-    let engine = engine.options()?;
+    files.check_standard_output(order.json)?;
+    let engine = order.engine.options()?;
     let aovs = files.aov.0.as_slice();
-    let create = |is_pair| RenderingFiles::create(&files.output, format, aovs, is_pair);
     // First of all, so that nobody waits for a picture that cannot be stored.
-    let mut output = create(look.stereo == Some(StereoArgument(Some(StereoMode::Sequential))))?;
-    let loaded = mesh.load()?;
-    let triangles = loaded.triangles;
-    let size = size.or(loaded.size.map(Size::from)).unwrap_or_default();
-    let view = look.applied(loaded.view);
-    look.check_eyes(view.stereo.is_some())?;
-    look.check_sampling(view.adaptive)?;
-    output = for_view(output, &view, create)?;
-    check_halves(&view, size)?;
-    let scene = Arc::new(by_variant(loaded.scene, variant)?);
-    let frame = view.frame(&scene, size.width, size.height);
-    let mut engine = Engine::new(&engine, &scene)?;
-    let start = Instant::now();
+    let mut output = create(files, format, look.asks_for_pair())?;
+    let prepared = Prepared::load(mesh, order.size, look, order.variant)?;
+    output = for_view(output, &prepared.view, |is_pair| create(files, format, is_pair))?;
+    let mut engine = Engine::new(&engine, &prepared.scene)?;
     let bar = ProgressBar::new();
-    let picture = engine.render(&frame, &|stage, fraction| bar.show(stage, fraction))?;
+    let rendered = prepared.render(&mut engine, &prepared.view, aovs, &|stage, fraction| {
+        bar.show(stage, fraction);
+    })?;
     drop(bar);
-    let seconds = start.elapsed().as_secs_f64();
-    let effort = Effort::new(&picture, Some(&frame));
-    let samples = if view.adaptive {
-        format!(
-            "up to {} samples, {:.2} in the mean,",
-            view.samples.count(),
-            picture.mean_samples()
-        )
-    } else {
-        counted(frame.sample_count as usize, "sample")
-    };
-    let seen = if aovs.is_empty() {
-        Seen::default()
-    } else {
-        Seen::new(&frame, &scene, |frame| engine.hits(frame))?
-    };
-    let written = output.save(picture, seen, &view.tone)?;
+    let mut figures = Figures::new(&rendered);
+    let written = output.save(rendered.picture, rendered.seen, &prepared.view.tone)?;
     eprintln!(
-        "{}: {} x {} pixels, {samples} each, {}, {}, {seconds:.3} s",
+        "{}: {} x {} pixels, {} each, {}, {}, {:.3} s",
         pictures(&written),
-        size.width,
-        size.height,
-        counted(triangles, "triangle"),
+        prepared.size.width,
+        prepared.size.height,
+        prepared.samples(figures.mean_samples),
+        counted(prepared.triangles, "triangle"),
         engine.name(),
+        figures.seconds,
     );
     describe(&written);
-    if !scene.is_plain() {
-        eprintln!("{}", told(&effort, seconds));
+    if !prepared.scene.is_plain() {
+        eprintln!("{}", told(&figures.effort, figures.seconds));
     }
-    if repeat > 1 {
-        let mut times = engine.time_render(&frame, repeat)?;
-        times.sort_by(f64::total_cmp);
-        super::print(&format!(
-            "kernel: median {:.3} ms, least {:.3}, greatest {:.3} of {repeat}\n",
-            times[times.len() / 2],
-            times[0],
-            times[times.len() - 1],
-        ))?;
+    figures.time(&mut engine, &rendered.frame, order.repeat)?;
+    if order.json {
+        return RenderingReport::of_picture(&prepared, &engine, &written, &figures).print();
+    }
+    print_kernel(&figures, files)
+}
+
+/// Prints the times of the kernel, if they were measured, where no picture goes.
+pub fn print_kernel(figures: &Figures, files: &FileArguments) -> Result<(), Failure> {
+    match figures.kernel_line() {
+        Some(line) if files.is_standard_output() => {
+            eprint!("{line}");
+            Ok(())
+        }
+        Some(line) => super::print(&line),
+        None => Ok(()),
+    }
+}
+
+/// The files of a picture, in the making.
+///
+/// # Errors
+/// Where one of them cannot be written, or standard output would have to take two pictures.
+pub fn create(files: &FileArguments, format: Format, is_pair: bool) -> Result<RenderingFiles, Failure> {
+    if !files.is_standard_output() {
+        return Ok(RenderingFiles::create(&files.output, format, &files.aov.0, is_pair)?);
+    }
+    check_one_picture(is_pair)?;
+    Ok(RenderingFiles::standard_output(format)?)
+}
+
+/// Makes sure that standard output is to take one picture only.
+pub fn check_one_picture(is_pair: bool) -> Result<(), Failure> {
+    if is_pair {
+        return Err(Failure::usage(
+            "Standard output takes one picture, and --stereo sequential makes two: give -o a name, or another kind of \
+             --stereo.",
+        ));
     }
     Ok(())
 }
 
-/// The scene, to be rendered by a variant of the kernel if one is asked for.
-fn by_variant(scene: Scene, variant: Option<Variant>) -> Result<Scene, Failure> {
-    let Some(variant) = variant else { return Ok(scene) };
-    if scene.parts != Parts::default() {
-        return Err(Failure::usage(
-            "Only the default parts have variants: leave --variant out, or --traversal, --triangle and --box.",
-        ));
-    }
-    let least = scene.variant;
-    scene.rendered_by(variant).ok_or_else(|| {
-        Failure::usage(format!(
-            "The variant `{variant}` leaves out what this scene needs: leave --variant out, or give {least} or a greater one."
-        ))
-    })
-}
-
-/// The format that is asked for, if everything that is asked for goes with it.
+/// The format of a picture that is asked for, if everything that is asked for goes with it.
 pub fn format(files: &FileArguments, look: &LookArguments) -> Result<Format, Failure> {
-    let format = Format::new(&files.output, files.bits).map_err(|error| Failure::usage(error.to_string()))?;
+    let name = files.name();
+    if files.animation()?.is_some() {
+        return Err(Failure::usage(format!(
+            "{} holds an animation: say with --frames how many pictures it has, or give a name that ends in .png or .exr.",
+            name.display()
+        )));
+    }
+    let format = Format::new(&name, files.bits).map_err(|error| Failure::usage(error.to_string()))?;
     if format == Format::Exr && (look.exposure.is_some() || look.tone.is_some()) {
         return Err(Failure::usage(format!(
             "EXR files hold the light as it is: leave --exposure and --tone out, or give {} a name that ends in .png.",
-            files.output.display()
+            name.display()
         )));
     }
     Ok(format)
@@ -135,13 +142,12 @@ pub fn format(files: &FileArguments, look: &LookArguments) -> Result<Format, Fai
 pub fn for_view(
     files: RenderingFiles,
     view: &View,
-    create: impl Fn(bool) -> Result<RenderingFiles, OutputError>,
-) -> Result<RenderingFiles, OutputError> {
-    let is_pair = view.stereo.is_some_and(|stereo| stereo.mode == StereoMode::Sequential);
-    if files.is_pair() == is_pair {
+    create: impl Fn(bool) -> Result<RenderingFiles, Failure>,
+) -> Result<RenderingFiles, Failure> {
+    if files.is_pair() == is_pair(view) {
         Ok(files)
     } else {
-        create(is_pair)
+        create(is_pair(view))
     }
 }
 

@@ -52,6 +52,12 @@ impl MeshArguments {
         let (has_colors, shift) = (!mesh.colors.is_empty(), mesh.shift);
         let scene = Scene::of_model(setting.model, &options, &|stage, fraction| bar.show(stage, fraction))
             .map_err(|error| refused(source, error))?;
+        let building = start.elapsed();
+        tracing::info!(
+            "read in {:.3} s, built in {:.3} s",
+            reading.as_secs_f64(),
+            building.as_secs_f64()
+        );
         Ok(Loaded {
             scene,
             view: setting.view,
@@ -61,7 +67,7 @@ impl MeshArguments {
             has_colors,
             shift,
             reading,
-            building: start.elapsed(),
+            building,
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::arguments::{FileArguments, ViewArguments};
-use super::render::render;
+use super::render::{Order, render};
 use oktant::viewer::{Look, ViewerError, ViewerOptions};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -30,15 +30,16 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
         Err(ViewerError::Script(error)) => Err(Failure::usage(error.to_string())),
         Err(ViewerError::NoDisplay(reason)) if arguments.script.is_none() => {
             eprintln!("There is no display to open a window on ({reason}): rendering {PICTURE} instead.");
-            render(
-                &arguments.mesh,
-                &FileArguments::picture(PICTURE),
-                arguments.size,
-                &arguments.look,
-                &arguments.engine,
-                1,
-                None,
-            )
+            render(&Order {
+                mesh: &arguments.mesh,
+                files: &FileArguments::picture(PICTURE),
+                size: arguments.size,
+                look: &arguments.look,
+                engine: &arguments.engine,
+                repeat: 1,
+                variant: None,
+                json: false,
+            })
         }
         Err(error) => Err(error.into()),
     }

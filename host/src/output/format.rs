@@ -33,6 +33,9 @@ pub enum FormatError {
     /// Bits for a format that has no choice of them.
     #[error("EXR files always have 32 bits a channel: leave --bits out, or give {} a name that ends in .png.", .0.display())]
     BitsOfExr(PathBuf),
+    /// Bits for a format that has no choice of them.
+    #[error("GIF files have 256 colours a frame: leave --bits out, or give {} a name that ends in .apng.", .0.display())]
+    BitsOfGif(PathBuf),
 }
 
 impl Format {

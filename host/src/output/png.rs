@@ -1,5 +1,8 @@
 //! PNG files.
 
+use super::Bits;
+use crate::picture::Picture;
+use crate::tone::Tone;
 use ::png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Filter, SrgbRenderingIntent};
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -29,29 +32,61 @@ pub enum Pixels<'a> {
 impl Png<'_> {
     /// Writes the file.
     pub fn write(&self, writer: impl Write) -> io::Result<()> {
-        let failed = |error| match error {
-            EncodingError::IoError(error) => error,
-            other => io::Error::other(other),
-        };
-        let mut encoder = Encoder::new(writer, self.width, self.height);
-        encoder.set_compression(Compression::Balanced);
-        encoder.set_filter(Filter::Adaptive);
-        let (color, depth, bytes) = match &self.pixels {
-            Pixels::Rgb8(channels) => (ColorType::Rgb, BitDepth::Eight, Cow::Borrowed(channels.as_ref())),
-            Pixels::Rgb16(channels) => (ColorType::Rgb, BitDepth::Sixteen, big_endian(channels)),
-            Pixels::Gray16(channels) => (ColorType::Grayscale, BitDepth::Sixteen, big_endian(channels)),
-        };
-        encoder.set_color(color);
-        encoder.set_depth(depth);
-        match &self.description {
-            Some(description) => encoder
-                .add_text_chunk("Description".into(), description.clone())
-                .map_err(failed)?,
-            None => encoder.set_source_srgb(SrgbRenderingIntent::Perceptual),
-        }
+        let size = [self.width, self.height];
+        let encoder = encoder(writer, size, &self.pixels, self.description.as_deref()).map_err(failed)?;
         let mut writer = encoder.write_header().map_err(failed)?;
-        writer.write_image_data(&bytes).map_err(failed)?;
+        writer.write_image_data(&self.pixels.bytes()).map_err(failed)?;
         writer.finish().map_err(failed)
+    }
+}
+
+impl Pixels<'_> {
+    /// The colours of a picture, with so many bits.
+    pub fn of(picture: &Picture, tone: &Tone, bits: Bits) -> Self {
+        match bits {
+            Bits::Eight => Pixels::Rgb8(picture.to_rgb8(tone).into()),
+            Bits::Sixteen => Pixels::Rgb16(picture.to_rgb16(tone)),
+        }
+    }
+
+    /// The channels as they stand in a file before they are compressed.
+    pub fn bytes(&self) -> Cow<'_, [u8]> {
+        match self {
+            Pixels::Rgb8(channels) => Cow::Borrowed(channels.as_ref()),
+            Pixels::Rgb16(channels) | Pixels::Gray16(channels) => big_endian(channels),
+        }
+    }
+}
+
+/// What writes pictures with channels like those of `pixels`, sRGB colours unless a description says what they are.
+pub fn encoder<W: Write>(
+    writer: W,
+    [width, height]: [u32; 2],
+    pixels: &Pixels<'_>,
+    description: Option<&str>,
+) -> Result<Encoder<'static, W>, EncodingError> {
+    let mut encoder = Encoder::new(writer, width, height);
+    encoder.set_compression(Compression::Balanced);
+    encoder.set_filter(Filter::Adaptive);
+    let (color, depth) = match pixels {
+        Pixels::Rgb8(_) => (ColorType::Rgb, BitDepth::Eight),
+        Pixels::Rgb16(_) => (ColorType::Rgb, BitDepth::Sixteen),
+        Pixels::Gray16(_) => (ColorType::Grayscale, BitDepth::Sixteen),
+    };
+    encoder.set_color(color);
+    encoder.set_depth(depth);
+    match description {
+        Some(description) => encoder.add_text_chunk("Description".into(), description.into())?,
+        None => encoder.set_source_srgb(SrgbRenderingIntent::Perceptual),
+    }
+    Ok(encoder)
+}
+
+/// What the system said, where it was the system.
+pub fn failed(error: EncodingError) -> io::Error {
+    match error {
+        EncodingError::IoError(error) => error,
+        other => io::Error::other(other),
     }
 }
 

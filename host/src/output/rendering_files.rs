@@ -1,12 +1,13 @@
 //! All files of a rendering, which appear together or not at all.
 
-use super::{Bits, Format, OutputError, PictureFile, aov_png, open_exr};
+use super::{Format, OutputError, PictureFile, aov_png, open_exr, publish};
 use crate::aov::Aov;
 use crate::output::png::{Pixels, Png};
 use crate::picture::Picture;
 use crate::seen::Seen;
 use crate::tone::Tone;
 use std::ffi::OsString;
+use std::iter::once;
 use std::path::{Path, PathBuf};
 
 /// Files in the making, see [`PictureFile`]: one for each eye's picture, and beside each one for everything else that is
@@ -40,26 +41,45 @@ impl RenderingFiles {
     /// # Errors
     /// [`OutputError`] of the first that cannot.
     pub fn create(path: &Path, format: Format, aovs: &[Aov], is_pair: bool) -> Result<Self, OutputError> {
-        let names = if is_pair {
-            vec![with_suffix(path, "left"), with_suffix(path, "right")]
-        } else {
-            vec![path.to_path_buf()]
-        };
-        let beside = if format == Format::Exr { &[] } else { aovs };
         let eye = |name: &PathBuf| {
             Ok(EyeFiles {
                 picture: PictureFile::create(name)?,
-                beside: beside
-                    .iter()
-                    .map(|aov| Ok((*aov, PictureFile::create(&with_suffix(name, aov.name()))?)))
+                beside: beside(name, format, aovs)
+                    .map(|(aov, name)| Ok((aov, PictureFile::create(&name)?)))
                     .collect::<Result<_, _>>()?,
             })
         };
         Ok(RenderingFiles {
             format,
             aovs: aovs.to_vec(),
-            eyes: names.iter().map(eye).collect::<Result<_, _>>()?,
+            eyes: eyes(path, is_pair).iter().map(eye).collect::<Result<_, _>>()?,
         })
+    }
+
+    /// The picture alone, for whoever reads standard output.
+    ///
+    /// # Errors
+    /// [`OutputError`] where there is no place to keep it until it is complete.
+    pub fn standard_output(format: Format) -> Result<Self, OutputError> {
+        Ok(RenderingFiles {
+            format,
+            aovs: Vec::new(),
+            eyes: vec![EyeFiles {
+                picture: PictureFile::standard_output()?,
+                beside: Vec::new(),
+            }],
+        })
+    }
+
+    /// The names of all files that [`RenderingFiles::create`] is to write.
+    pub fn names(path: &Path, format: Format, aovs: &[Aov], is_pair: bool) -> Vec<PathBuf> {
+        let mut names = Vec::new();
+        for name in eyes(path, is_pair) {
+            let others: Vec<_> = beside(&name, format, aovs).map(|(_, name)| name).collect();
+            names.push(name);
+            names.extend(others);
+        }
+        names
     }
 
     /// Whether there is a file for each of two eyes.
@@ -84,17 +104,13 @@ impl RenderingFiles {
         let mut written = Vec::new();
         for (files, (picture, seen)) in self.eyes.iter_mut().zip(&parts) {
             let file = &mut files.picture;
-            match self.format {
+            match &self.format {
                 Format::Exr => file.write(|writer| open_exr::write(writer, picture, seen, &self.aovs))?,
                 Format::Png(bits) => {
-                    let pixels = match bits {
-                        Bits::Eight => Pixels::Rgb8(picture.to_rgb8(tone).into()),
-                        Bits::Sixteen => Pixels::Rgb16(picture.to_rgb16(tone)),
-                    };
                     let png = Png {
                         width: picture.width,
                         height: picture.height,
-                        pixels,
+                        pixels: Pixels::of(picture, tone, *bits),
                         description: None,
                     };
                     file.write(|writer| png.write(writer))?;
@@ -113,14 +129,27 @@ impl RenderingFiles {
                 });
             }
         }
-        for files in self.eyes {
+        publish(self.eyes.into_iter().flat_map(|files| {
             let beside = files.beside.into_iter().map(|(_, file)| file);
-            for file in [files.picture].into_iter().chain(beside) {
-                file.publish()?;
-            }
-        }
+            once(files.picture).chain(beside)
+        }))?;
         Ok(written)
     }
+}
+
+/// The name of each eye's picture.
+pub(super) fn eyes(path: &Path, is_pair: bool) -> Vec<PathBuf> {
+    if is_pair {
+        vec![with_suffix(path, "left"), with_suffix(path, "right")]
+    } else {
+        vec![path.to_path_buf()]
+    }
+}
+
+/// The names of the files beside a picture's; an EXR file holds all itself.
+fn beside(name: &Path, format: Format, aovs: &[Aov]) -> impl Iterator<Item = (Aov, PathBuf)> {
+    let aovs = if format == Format::Exr { &[] } else { aovs };
+    aovs.iter().map(move |aov| (*aov, with_suffix(name, aov.name())))
 }
 
 /// `NAME-suffix.EXT` for `NAME.EXT`.
@@ -138,6 +167,7 @@ fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::Bits;
     use glam::{Vec3, Vec4};
     use oktant_shared::hit::Hit;
     use std::fs;
@@ -193,6 +223,9 @@ mod tests {
             "a-right.png",
         ];
         assert_eq!(names(folder.path()), all);
+        let mut told = RenderingFiles::names(&path, format, &[Aov::Depth, Aov::Rays], true);
+        told.sort();
+        assert_eq!(told, all.map(|name| folder.path().join(name)));
         assert_eq!(written.len(), all.len());
         assert_eq!(written.iter().filter(|file| file.description.is_none()).count(), 2);
     }

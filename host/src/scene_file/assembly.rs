@@ -10,6 +10,7 @@ use crate::asset::Asset;
 use crate::mesh::Mesh;
 use crate::mesh_source::MeshSource;
 use crate::model::{AMBIENT, Model, needs_coordinates};
+use crate::preferences::Preferences;
 use crate::progress::Progress;
 use crate::source::Setting;
 use crate::transform::{Misplaced, Transform};
@@ -103,7 +104,10 @@ pub fn assemble(
         return Err(Fault::new(&Place::ROOT, Reason::Empty));
     }
     let whole = assembly.mesh.bounding_sphere();
-    let mut view = View { up, ..View::default() };
+    let mut view = View {
+        up,
+        ..Preferences::of_process().view
+    };
     let focus = description.camera.apply(&mut view, whole)?;
     description.render.apply(&mut view)?;
     view.stereo = description.stereo.as_ref().map(|stereo| stereo.build());

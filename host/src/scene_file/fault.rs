@@ -1,9 +1,10 @@
-//! What is wrong with a scene file, and where.
+//! What is wrong with a scene file, or another one in TOML, and where.
 
 use super::place::{Place, Step};
 use crate::mesh_source::MeshError;
 use crate::nearest::nearest;
 use crate::texels::{ImageFault, TooManyTexels};
+use crate::toml_file::Subject;
 use serde::de::{Error, Expected, Unexpected};
 use std::borrow::Cow;
 use std::fmt::{self, Display};
@@ -12,10 +13,8 @@ use std::fmt::{self, Display};
 const MOST_NAMES: usize = 12;
 /// Characters of a name that are shown.
 const LONGEST_NAME: usize = 40;
-/// The fields at the top of a scene file that are no tables.
-const TOP_FIELDS: [&str; 2] = ["up", "ambient"];
 
-/// Something wrong at a place of a scene file.
+/// Something wrong at a place of a file.
 #[derive(Debug)]
 pub struct Fault {
     /// Where.
@@ -80,6 +79,9 @@ pub enum Reason {
     /// The camera looks at itself.
     #[error("is also what the camera looks at; move one of them")]
     NoDirection,
+    /// A time that is not after the one before.
+    #[error("is not later than the key before it; put the keys in the order of their times")]
+    NotLater,
     /// A vector without length, or edges along each other.
     #[error("has no area; let its edges point in different directions")]
     NoArea,
@@ -185,6 +187,20 @@ impl Fault {
         }
     }
 
+    /// What is wrong in a file about a subject, and what to do.
+    pub fn sentence(&self, subject: &Subject) -> String {
+        let place = self.place.name(subject.whole);
+        match &self.reason {
+            // What is appended to a file becomes part of its last table.
+            Reason::UnknownField { name, .. }
+                if !self.place.steps().is_empty() && subject.top_fields.contains(&name.as_str()) =>
+            {
+                format!("{place} has no field \"{name}\"; it belongs at the top, before the first [table]")
+            }
+            reason => format!("{place} {reason}"),
+        }
+    }
+
     /// The same fault, seen from one step further up.
     pub fn inside(mut self, step: Step) -> Self {
         self.place.prepend(step);
@@ -192,21 +208,10 @@ impl Fault {
     }
 }
 
+/// Without what the file describes; [`Fault::sentence`] says more.
 impl Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.reason {
-            // What is appended to a file becomes part of its last table.
-            Reason::UnknownField { name, .. }
-                if !self.place.steps().is_empty() && TOP_FIELDS.contains(&name.as_str()) =>
-            {
-                write!(
-                    f,
-                    "{} has no field \"{name}\"; it belongs at the top, before the first [table]",
-                    self.place
-                )
-            }
-            reason => write!(f, "{} {reason}", self.place),
-        }
+        self.reason.fmt(f)
     }
 }
 

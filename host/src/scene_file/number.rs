@@ -73,6 +73,8 @@ quantities! { false, f64:
     Coordinate in -1e9..=1e9, "a number from -1e9 to 1e9";
     /// An angle, degrees.
     Degrees in -1e6..=1e6, "a number of degrees from -1e6 to 1e6";
+    /// A time, in any unit.
+    Time in -1e9..=1e9, "a number from -1e9 to 1e9";
 }
 
 quantities! { false, f32:
@@ -80,6 +82,8 @@ quantities! { false, f32:
     Steps in 0.0..=255.0, "a number of steps of 8 bits from 0 to 255";
     /// How far a pixel may be off, as a part of the output's range.
     Tolerance in 1e-4..=1.0, "a part of the output's range from 0.0001 to 1";
+    /// A distance from what is looked at, in the radii that a view counts in.
+    Radii in 1e-3..=1e5, "a number of radii from 0.001 to 100000";
     /// A part of a whole.
     Part in 0.0..=1.0, "a number from 0 to 1";
     /// A length, scene units.

@@ -1,6 +1,4 @@
-//! Places in a scene file.
-
-use std::fmt;
+//! Places in a TOML file.
 
 /// A step from a table or array to what is in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -11,7 +9,7 @@ pub enum Step {
     Index(usize),
 }
 
-/// The way from the top of a scene file to a value.
+/// The way from the top of a file to a value.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Place(Vec<Step>);
 
@@ -50,15 +48,8 @@ impl Place {
         self.0.insert(0, step);
     }
 
-    /// The steps, the topmost first.
-    pub fn steps(&self) -> &[Step] {
-        &self.0
-    }
-}
-
-/// As people say it: keys joined by dots. Which element of an array is meant, the line says.
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    /// As people say it: keys joined by dots, or `whole` at the top. Which element of an array is meant, the line says.
+    pub fn name(&self, whole: &str) -> String {
         let keys: Vec<_> = self
             .0
             .iter()
@@ -67,7 +58,11 @@ impl fmt::Display for Place {
                 Step::Index(_) => None,
             })
             .collect();
-        f.write_str(if keys.is_empty() { "the scene" } else { "" })?;
-        f.write_str(&keys.join("."))
+        if keys.is_empty() { whole.into() } else { keys.join(".") }
+    }
+
+    /// The steps, the topmost first.
+    pub fn steps(&self) -> &[Step] {
+        &self.0
     }
 }

@@ -24,7 +24,7 @@ use super::{ViewerError, ViewerOptions};
 use crate::backend::BackendChoice;
 use crate::backend::gpu::GpuOptions;
 use crate::model::Focus;
-use crate::picture::DEFAULT_SIZE;
+use crate::preferences::Preferences;
 use crate::scene::Scene;
 use crate::source::Source;
 use crate::view::View;
@@ -115,7 +115,7 @@ impl Application {
             start,
             session: Session::new(
                 options.look.applied(View::default()),
-                options.size.unwrap_or(DEFAULT_SIZE),
+                options.size.unwrap_or(Preferences::of_process().size),
                 1.0,
             ),
             translation: Translation::default(),

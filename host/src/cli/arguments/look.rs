@@ -84,11 +84,25 @@ pub struct LookArguments {
     /// Curve that makes bright light fit the screen; not for EXR files [default: as the scene says, else none].
     #[arg(long, value_enum)]
     pub tone: Option<Curve>,
+    /// What the environment says of it, which nothing is refused for.
+    #[arg(skip)]
+    pub environment: Option<Box<LookArguments>>,
 }
 
 impl LookArguments {
+    /// What is given here, and of the rest what the environment says.
+    pub fn on_top_of(self, environment: LookArguments) -> Self {
+        LookArguments {
+            environment: Some(Box::new(environment)),
+            ..self
+        }
+    }
+
     /// A view with what is given here changed.
     pub fn applied(&self, mut view: View) -> View {
+        if let Some(environment) = &self.environment {
+            view = environment.applied(view);
+        }
         fn set<T: Copy>(value: &mut T, given: Option<T>) {
             *value = given.unwrap_or(*value);
         }
@@ -128,6 +142,11 @@ impl LookArguments {
             stereo.convergence = self.convergence.or(stereo.convergence);
         }
         view
+    }
+
+    /// Whether a picture for each of two eyes is asked for, whatever a scene says.
+    pub fn asks_for_pair(&self) -> bool {
+        self.stereo == Some(StereoArgument(Some(StereoMode::Sequential)))
     }
 
     /// Makes sure that what is given has a meaning for a source, as far as that can be said before it is loaded.

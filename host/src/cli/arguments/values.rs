@@ -6,6 +6,7 @@ use oktant::grid::GridOptions;
 use oktant::octree::OctreeOptions;
 use oktant::oracle::whitted::Takes;
 use oktant::picture::{DEFAULT_SIZE, LARGEST_PICTURE, LARGEST_SIDE};
+use oktant::preferences::Preferences;
 use oktant::tree::BuildPreset;
 use oktant_shared::octree::MAX_DEPTH;
 use oktant_shared::parts::{BoxKind, TraversalKind, TriangleKind};
@@ -20,6 +21,13 @@ pub struct Size {
 impl Default for Size {
     fn default() -> Self {
         DEFAULT_SIZE.into()
+    }
+}
+
+impl Size {
+    /// The size of pictures for which nobody says one.
+    pub fn preferred() -> Self {
+        Preferences::of_process().size.into()
     }
 }
 
