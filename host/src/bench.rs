@@ -10,7 +10,7 @@ mod thesis;
 mod tracer;
 mod workload;
 
-pub use counting::{Counts, count};
+pub use counting::{Counts, count, count_each};
 pub use judgement::{Disagreement, Judgement, Truth};
 pub use parts_bench::{BRUTE_BUDGET, MeasureError, Plan, measure};
 pub use report::{CombinationReport, PartNames, Report, SetReport, SpeedReport, SubjectReport, TruthReport};

@@ -3,6 +3,7 @@
 mod arguments;
 mod bench;
 mod cast;
+mod cells;
 mod chart;
 mod check;
 mod compare;
@@ -11,6 +12,7 @@ mod configuration;
 mod engine;
 mod frames;
 mod info;
+mod insight;
 mod interruption;
 mod kernels;
 mod man;
@@ -55,9 +57,10 @@ pub fn run() -> ExitCode {
 fn run_command(command: Command) -> Result<(), Failure> {
     match command {
         Command::View(arguments) => view::run(&arguments),
-        Command::Render(arguments) => match arguments.reference {
-            Some(takes) => reference::run(&arguments, takes),
-            None => render::run(&arguments),
+        Command::Render(arguments) => match (arguments.reference, arguments.insight.show) {
+            (Some(takes), _) => reference::run(&arguments, takes),
+            (None, Some(aspect)) => insight::run(&arguments, aspect),
+            (None, None) => render::run(&arguments),
         },
         Command::Cast(arguments) => cast::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),

@@ -25,6 +25,7 @@ pub use unfinished::abandon;
 
 use self::png::{Pixels, Png};
 use self::unfinished::{Unfinished, undisturbed};
+use crate::insight::Insight;
 use crate::picture::Picture;
 use crate::tone::Tone;
 use std::fs::{self, File};
@@ -129,14 +130,35 @@ impl PictureFile {
     ///
     /// # Errors
     /// As [`PictureFile::save`].
-    pub fn save_rgb8(mut self, pixels: &[u8], [width, height]: [u32; 2]) -> Result<(), OutputError> {
+    pub fn save_rgb8(self, pixels: &[u8], size: [u32; 2]) -> Result<(), OutputError> {
+        self.save_png(pixels, size, None)
+    }
+
+    /// As [`PictureFile::save_rgb8`], of colours that stand for something else, with a sentence that says how to read them.
+    ///
+    /// # Errors
+    /// As [`PictureFile::save`].
+    pub fn save_described(self, pixels: &[u8], size: [u32; 2], description: String) -> Result<(), OutputError> {
+        self.save_png(pixels, size, Some(description))
+    }
+
+    fn save_png(mut self, pixels: &[u8], size: [u32; 2], description: Option<String>) -> Result<(), OutputError> {
         let png = Png {
-            width,
-            height,
+            width: size[0],
+            height: size[1],
             pixels: Pixels::Rgb8(pixels.into()),
-            description: None,
+            description,
         };
         self.write(|writer| png.write(writer))?;
+        self.publish()
+    }
+
+    /// Writes what pixels tell as it is into an OpenEXR file and gives the file its name.
+    ///
+    /// # Errors
+    /// As [`PictureFile::save`].
+    pub fn save_insight(mut self, insight: &Insight) -> Result<(), OutputError> {
+        self.write(|writer| open_exr::write_insight(writer, insight))?;
         self.publish()
     }
 

@@ -4,11 +4,15 @@
 //! It is the code of the traversals that runs, with parts put in that write down (`recorder`).
 
 mod cells;
+mod descent;
 mod export;
 mod recorder;
 mod table;
 
+pub(crate) use cells::Layout;
+pub(crate) use descent::{Cell, Content, children, root};
 pub use export::{obj, ply};
+pub(crate) use recorder::Recorder;
 pub use table::table;
 
 use crate::bench::PartNames;
@@ -24,7 +28,6 @@ use oktant_shared::ray::{PreparedRay, Ray};
 use oktant_shared::scene::Scene as View;
 use oktant_shared::triangle::Triangle;
 use oktant_shared::triangle_test::TriangleTest;
-use recorder::record;
 use serde::Serialize;
 
 /// All that was written down of a ray.
@@ -151,9 +154,9 @@ impl Trace {
         let oracle = Oracle::new(mesh);
         let exact = OracleRay::new(ray.origin, ray.direction, ray.t_min.max(0.0), ray.t_max);
         let prepared = PreparedRay::new(ray);
-        let record = record(scene, ray);
+        let record = Recorder::new(scene).record(scene, ray);
         let hit = record.hit.is_hit().then(|| TracedHit {
-            triangle: record.hit.triangle,
+            triangle: scene.ids[record.hit.triangle as usize],
             t: f64::from(record.hit.t),
             u: f64::from(record.hit.u),
             v: f64::from(record.hit.v),
@@ -224,7 +227,7 @@ impl Trace {
             advanced: advance * prepared.scale,
             boxes: boxes.collect(),
             tests: record.tests.iter().map(tested).collect(),
-            visits: cells::visits(scene, &record, prepared.scale, advance),
+            visits: Layout::new(scene).visits(scene, &record, prepared.scale, advance),
         }
     }
 }

@@ -116,6 +116,24 @@ impl Cpu {
         !cancel.load(Ordering::Relaxed)
     }
 
+    /// Renders all samples of a frame; none where `cancel` was raised meanwhile.
+    pub fn render_unless(&self, frame: &Frame, cancel: &AtomicBool, progress: Progress<'_>) -> Option<Picture> {
+        let size = frame.size();
+        let mut picture = Picture::unwritten(size.x, size.y);
+        let passes = if frame.most_samples != 0 {
+            adaptive::passes(frame, frame.most_samples)
+        } else {
+            vec![*frame]
+        };
+        for (before, pass) in passes.iter().enumerate() {
+            let of_all = |stage, fraction| progress(stage, (before as f32 + fraction) / passes.len() as f32);
+            if !self.render_pass(pass, &mut picture, cancel, &of_all) {
+                return None;
+            }
+        }
+        Some(picture)
+    }
+
     /// A pass over the pixels that a round of adaptive sampling lists, or over all.
     fn render_adaptive(
         &self,
@@ -206,18 +224,8 @@ impl Backend for Cpu {
     }
 
     fn render(&mut self, frame: &Frame, progress: Progress<'_>) -> Result<Picture, BackendError> {
-        let size = frame.size();
-        let mut picture = Picture::unwritten(size.x, size.y);
-        let passes = if frame.most_samples != 0 {
-            adaptive::passes(frame, frame.most_samples)
-        } else {
-            vec![*frame]
-        };
-        for (before, pass) in passes.iter().enumerate() {
-            let of_all = |stage, fraction| progress(stage, (before as f32 + fraction) / passes.len() as f32);
-            self.render_pass(pass, &mut picture, &AtomicBool::new(false), &of_all);
-        }
-        Ok(picture)
+        let picture = self.render_unless(frame, &AtomicBool::new(false), progress);
+        Ok(picture.expect("nobody cancels it"))
     }
 
     fn hits(&mut self, frame: &Frame) -> Result<Vec<Hit>, BackendError> {

@@ -42,8 +42,8 @@ thread_local! {
     static READ: Cell<Counts> = const { Cell::new(Counts { nodes: 0, triangle_tests: 0 }) };
 }
 
-/// Rays that are counted at a time.
-const CHUNK: usize = 1024;
+/// Rays that a thread takes at least.
+const CHUNK: usize = 256;
 
 /// Traces rays with any combination of parts, also of those that are not offered, and counts what they read. The scene's
 /// structure must be the one that the traversal reads.
@@ -51,13 +51,18 @@ const CHUNK: usize = 1024;
 /// It is the code of the traversals that is measured, with parts put in that count: around the triangle test, around the way
 /// through the structure, and, where that reads more than a node at a time, around the box test.
 pub fn count(scene: &Scene, parts: Parts, query: Query, rays: &[Ray]) -> Counts {
+    count_each(scene, parts, query, rays).into_iter().sum()
+}
+
+/// As [`count`], each ray by itself.
+pub fn count_each(scene: &Scene, parts: Parts, query: Query, rays: &[Ray]) -> Vec<Counts> {
     match parts.box_test {
         BoxKind::KayKajiya => with_box::<KayKajiya>(scene, parts, query, rays),
         BoxKind::Williams => with_box::<Williams>(scene, parts, query, rays),
     }
 }
 
-fn with_box<B: BoxTest>(scene: &Scene, parts: Parts, query: Query, rays: &[Ray]) -> Counts {
+fn with_box<B: BoxTest>(scene: &Scene, parts: Parts, query: Query, rays: &[Ray]) -> Vec<Counts> {
     // Any triangle test, chosen while it runs, so that a new one needs nothing here.
     type T = Tests<AnyTriangle>;
     let scene = View {
@@ -72,33 +77,31 @@ fn with_box<B: BoxTest>(scene: &Scene, parts: Parts, query: Query, rays: &[Ray])
         TraversalKind::Octree => trace::<Along<Steps<revelles::Walk>, B, T>>(scene, query, rays),
         TraversalKind::Grid => trace::<Along<Steps<grid::Walk>, B, T>>(scene, query, rays),
         TraversalKind::Bvh2 => {
-            // Two boxes a node.
-            let counts = trace::<Along<bvh2::Walk<Boxes<B>>, B, T>>(scene, query, rays);
-            Counts {
-                nodes: counts.nodes / 2,
-                ..counts
+            let mut counts = trace::<Along<bvh2::Walk<Boxes<B>>, B, T>>(scene, query, rays);
+            for counts in &mut counts {
+                // Two boxes a node.
+                counts.nodes /= 2;
             }
+            counts
         }
         TraversalKind::Brute => trace::<Along<brute::Walk, B, T>>(scene, query, rays),
     }
 }
 
-fn trace<V: Traversal>(scene: &View<'_>, query: Query, rays: &[Ray]) -> Counts {
-    let counts = rays.par_chunks(CHUNK).map(|rays| {
+fn trace<V: Traversal>(scene: &View<'_>, query: Query, rays: &[Ray]) -> Vec<Counts> {
+    let counts = rays.par_iter().with_min_len(CHUNK).map(|ray| {
         READ.take();
-        for ray in rays {
-            match query {
-                Query::Closest => {
-                    V::closest_hit(scene, ray);
-                }
-                Query::Any => {
-                    V::any_hit(scene, ray);
-                }
+        match query {
+            Query::Closest => {
+                V::closest_hit(scene, ray);
+            }
+            Query::Any => {
+                V::any_hit(scene, ray);
             }
         }
         READ.take()
     });
-    counts.sum()
+    counts.collect()
 }
 
 /// Counts one more node.

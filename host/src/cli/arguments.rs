@@ -5,6 +5,7 @@ mod chart;
 mod compare;
 mod files;
 mod frames;
+mod insight;
 mod look;
 mod numbers;
 mod refusal;
@@ -19,6 +20,7 @@ pub use chart::{ChartArguments, ChartKind};
 pub use compare::CompareArguments;
 pub use files::FileArguments;
 pub use frames::{FrameArguments, FrameRange};
+pub use insight::{InsightArguments, Switch};
 pub use look::LookArguments;
 pub use stability::StabilityArguments;
 pub use trace::{RayArgument, TraceArguments, TraceSource};
@@ -138,9 +140,12 @@ pub struct RenderArguments {
     /// Render so many times and print the times of the kernel: median, least and greatest.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub repeat: u32,
-    /// Say what was rendered as JSON, on standard output: files, rays, times, bounds of what was cut.
+    /// Say what was rendered as JSON, on standard output: files, rays, times, bounds of what was cut; with --show the figures of
+    /// the legend.
     #[arg(long, conflicts_with = "reference")]
     pub json: bool,
+    #[command(flatten)]
+    pub insight: InsightArguments,
     /// Variant of the kernel: the least that does all that the scene needs, or a greater one, for comparison
     /// [default: the least].
     #[arg(long, value_enum)]

@@ -69,6 +69,11 @@ impl Prepared {
         is_pair(&self.view)
     }
 
+    /// What a view sees.
+    pub fn frame(&self, view: &View) -> Frame {
+        view.frame(&self.scene, self.size.width, self.size.height)
+    }
+
     /// Renders what a view sees, and looks for what else is to be told of the pixels.
     pub fn render(
         &self,
@@ -77,7 +82,7 @@ impl Prepared {
         aovs: &[Aov],
         progress: Progress<'_>,
     ) -> Result<Rendered, Failure> {
-        let frame = view.frame(&self.scene, self.size.width, self.size.height);
+        let frame = self.frame(view);
         let start = Instant::now();
         let picture = engine.render(&frame, progress)?;
         let seconds = start.elapsed().as_secs_f64();

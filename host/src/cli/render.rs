@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::arguments::{EngineArguments, FileArguments, LookArguments, MeshArguments, RenderArguments, Size};
+use super::cells;
 use super::engine::Engine;
 use super::frames;
 use super::prepared::{Prepared, is_pair};
@@ -55,6 +56,8 @@ pub fn render(order: &Order<'_>) -> Result<(), Failure> {
     let mut output = create(files, format, look.asks_for_pair())?;
     let prepared = Prepared::load(mesh, order.size, look, order.variant)?;
     output = for_view(output, &prepared.view, |is_pair| create(files, format, is_pair))?;
+    let frame = prepared.frame(&prepared.view);
+    let output = output.under(cells::layer(files, &prepared.scene, &frame)?);
     let mut engine = Engine::new(&engine, &prepared.scene)?;
     let bar = ProgressBar::new();
     let rendered = prepared.render(&mut engine, &prepared.view, aovs, &|stage, fraction| {
@@ -135,6 +138,7 @@ pub fn format(files: &FileArguments, look: &LookArguments) -> Result<Format, Fai
             name.display()
         )));
     }
+    cells::check(files, format)?;
     Ok(format)
 }
 

@@ -2,6 +2,7 @@
 
 use crate::aov::Aov;
 use crate::effort::cut;
+use crate::insight::{Aspect, Insight, Values};
 use crate::picture::Picture;
 use crate::seen::Seen;
 use exr::prelude::{
@@ -29,7 +30,23 @@ pub fn write(writer: impl Write + Seek, picture: &Picture, seen: &Seen, aovs: &[
     for aov in aovs {
         channels.extend(layer(*aov, picture, seen));
     }
-    let size = (picture.width as usize, picture.height as usize);
+    write_channels(writer, [picture.width, picture.height], channels)
+}
+
+/// Writes what pixels tell: numbers as the channel `Y`, not a number where there is none; what is seen under the names that
+/// it has in layers.
+pub fn write_insight(writer: impl Write + Seek, insight: &Insight) -> io::Result<()> {
+    let channels = match (&insight.values, insight.aspect) {
+        (Values::Numbers(numbers), _) => vec![floats("Y", numbers.clone())],
+        (Values::Seen(seen), Aspect::Normals) => seen_layer(Aov::Normal, seen),
+        (Values::Seen(seen), Aspect::Barycentrics) => seen_layer(Aov::Barycentrics, seen),
+        (Values::Seen(seen), _) => seen_layer(Aov::Id, seen),
+    };
+    write_channels(writer, insight.size, channels)
+}
+
+fn write_channels(writer: impl Write + Seek, [width, height]: [u32; 2], channels: Vec<Channel>) -> io::Result<()> {
+    let size = (width as usize, height as usize);
     let mut image = Image::from_encoded_channels(size, ENCODING, AnyChannels::sort(channels.into()));
     image.layer_data.attributes.software_name = Text::new_or_none(concat!("oktant ", env!("CARGO_PKG_VERSION")));
     image.write().to_buffered(writer).map_err(|error| match error {
@@ -39,6 +56,26 @@ pub fn write(writer: impl Write + Seek, picture: &Picture, seen: &Seen, aovs: &[
 }
 
 fn layer(aov: Aov, picture: &Picture, seen: &Seen) -> Vec<Channel> {
+    match aov {
+        Aov::Depth | Aov::Normal | Aov::Id | Aov::Barycentrics => seen_layer(aov, seen),
+        Aov::Samples => {
+            let weights = picture.sums.iter().map(|sum| sum.w).collect();
+            vec![floats("samples.weight", weights)]
+        }
+        Aov::Rays => {
+            let work = &picture.work;
+            let cuts = picture.sums.iter().zip(work);
+            vec![
+                floats("rays.closest", work.iter().map(|work| work.x).collect()),
+                floats("rays.shadow", work.iter().map(|work| work.y).collect()),
+                floats("rays.cut", cuts.map(|(sum, work)| cut(*sum, *work) as f32).collect()),
+            ]
+        }
+    }
+}
+
+/// A layer of what is seen first; none of what comes of samples.
+fn seen_layer(aov: Aov, seen: &Seen) -> Vec<Channel> {
     let of_hits = |name, value: fn(&Hit) -> f32| floats(name, seen.hits.iter().map(value).collect());
     match aov {
         Aov::Depth => vec![of_hits(
@@ -56,19 +93,7 @@ fn layer(aov: Aov, picture: &Picture, seen: &Seen) -> Vec<Channel> {
             of_hits("barycentrics.u", |hit| hit.u),
             of_hits("barycentrics.v", |hit| hit.v),
         ],
-        Aov::Samples => {
-            let weights = picture.sums.iter().map(|sum| sum.w).collect();
-            vec![floats("samples.weight", weights)]
-        }
-        Aov::Rays => {
-            let work = &picture.work;
-            let cuts = picture.sums.iter().zip(work);
-            vec![
-                floats("rays.closest", work.iter().map(|work| work.x).collect()),
-                floats("rays.shadow", work.iter().map(|work| work.y).collect()),
-                floats("rays.cut", cuts.map(|(sum, work)| cut(*sum, *work) as f32).collect()),
-            ]
-        }
+        Aov::Samples | Aov::Rays => Vec::new(),
     }
 }
 

@@ -6,6 +6,7 @@ use crate::output::png::{Pixels, Png};
 use crate::picture::Picture;
 use crate::seen::Seen;
 use crate::tone::Tone;
+use crate::wires::Layer;
 use std::ffi::OsString;
 use std::iter::once;
 use std::path::{Path, PathBuf};
@@ -17,6 +18,8 @@ pub struct RenderingFiles {
     format: Format,
     aovs: Vec<Aov>,
     eyes: Vec<EyeFiles>,
+    /// What is drawn over the picture, if anything.
+    layer: Option<Layer>,
 }
 
 #[derive(Debug)]
@@ -53,6 +56,7 @@ impl RenderingFiles {
             format,
             aovs: aovs.to_vec(),
             eyes: eyes(path, is_pair).iter().map(eye).collect::<Result<_, _>>()?,
+            layer: None,
         })
     }
 
@@ -68,6 +72,7 @@ impl RenderingFiles {
                 picture: PictureFile::standard_output()?,
                 beside: Vec::new(),
             }],
+            layer: None,
         })
     }
 
@@ -80,6 +85,11 @@ impl RenderingFiles {
             names.extend(others);
         }
         names
+    }
+
+    /// With something drawn over the picture where that is a PNG file of 8 bits; not for pairs.
+    pub fn under(self, layer: Option<Layer>) -> Self {
+        RenderingFiles { layer, ..self }
     }
 
     /// Whether there is a file for each of two eyes.
@@ -107,10 +117,14 @@ impl RenderingFiles {
             match &self.format {
                 Format::Exr => file.write(|writer| open_exr::write(writer, picture, seen, &self.aovs))?,
                 Format::Png(bits) => {
+                    let mut pixels = Pixels::of(picture, tone, *bits);
+                    if let (Some(layer), Pixels::Rgb8(channels)) = (&self.layer, &mut pixels) {
+                        layer.over(channels.to_mut());
+                    }
                     let png = Png {
                         width: picture.width,
                         height: picture.height,
-                        pixels: Pixels::of(picture, tone, *bits),
+                        pixels,
                         description: None,
                     };
                     file.write(|writer| png.write(writer))?;

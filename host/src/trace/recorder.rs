@@ -21,10 +21,11 @@ use oktant_shared::triangle_test::{Crossing, TriangleTest};
 use oktant_shared::walk::{Along, Leaf, List, Range, Some32, Walk};
 use oktant_shared::{brute, bvh2, grid, octants, revelles};
 use std::cell::RefCell;
+use std::sync::Arc;
 
 /// What was written down.
 pub struct Record {
-    /// What was found, with the triangle's id.
+    /// What was found, with the triangle's slot.
     pub hit: Hit,
     /// The ray as it was traced.
     pub ray: PreparedRay,
@@ -53,42 +54,57 @@ pub enum Event {
 
 thread_local! {
     static NOTES: RefCell<Notes> = const {
-        RefCell::new(Notes { firsts: Vec::new(), ray: None, events: Vec::new(), tests: Vec::new() })
+        RefCell::new(Notes { firsts: None, ray: None, events: Vec::new(), tests: Vec::new() })
     };
 }
 
 struct Notes {
     /// Where the leaf begins that has a number; leaves without one begin at it.
-    firsts: Vec<u32>,
+    firsts: Option<Arc<[u32]>>,
     ray: Option<PreparedRay>,
     events: Vec<Event>,
     tests: Vec<u32>,
 }
 
-/// Traces a ray for its closest hit with the parts that the scene was built for.
-pub fn record(scene: &Scene, ray: &Ray) -> Record {
-    let (nodes, firsts) = numbered(scene);
-    NOTES.set(Notes {
-        firsts,
-        ray: None,
-        events: Vec::new(),
-        tests: Vec::new(),
-    });
-    let view = View {
-        nodes: &nodes,
-        ..scene.view()
-    };
-    let hit = match scene.parts.box_test {
-        BoxKind::KayKajiya => with_box::<KayKajiya>(scene, &view, ray),
-        BoxKind::Williams => with_box::<Williams>(scene, &view, ray),
-    };
-    let hit = view.identified(hit);
-    NOTES.with_borrow_mut(|notes| Record {
-        hit,
-        ray: notes.ray.unwrap_or_else(|| PreparedRay::new(ray)),
-        events: std::mem::take(&mut notes.events),
-        tests: std::mem::take(&mut notes.tests),
-    })
+/// Writes down rays through one scene; it is made once for any number of them.
+pub struct Recorder {
+    nodes: Vec<UVec4>,
+    firsts: Arc<[u32]>,
+}
+
+impl Recorder {
+    /// The recorder of a scene.
+    pub fn new(scene: &Scene) -> Self {
+        let (nodes, firsts) = numbered(scene);
+        Recorder {
+            nodes,
+            firsts: firsts.into(),
+        }
+    }
+
+    /// Traces a ray for its closest hit with the parts that the scene was built for: the one of [`Recorder::new`].
+    pub fn record(&self, scene: &Scene, ray: &Ray) -> Record {
+        NOTES.set(Notes {
+            firsts: Some(self.firsts.clone()),
+            ray: None,
+            events: Vec::new(),
+            tests: Vec::new(),
+        });
+        let view = View {
+            nodes: &self.nodes,
+            ..scene.view()
+        };
+        let hit = match scene.parts.box_test {
+            BoxKind::KayKajiya => with_box::<KayKajiya>(scene, &view, ray),
+            BoxKind::Williams => with_box::<Williams>(scene, &view, ray),
+        };
+        NOTES.with_borrow_mut(|notes| Record {
+            hit,
+            ray: notes.ray.unwrap_or_else(|| PreparedRay::new(ray)),
+            events: std::mem::take(&mut notes.events),
+            tests: std::mem::take(&mut notes.tests),
+        })
+    }
 }
 
 fn with_box<B: BoxTest>(scene: &Scene, view: &View<'_>, ray: &Ray) -> Hit {
@@ -214,7 +230,8 @@ impl<W: Walk<Leaf: Numbered>> Walk for Recorded<W> {
                 limit,
                 bits: leaf.bits(),
             });
-            leaf.beginning(notes.firsts.get(number as usize).copied().unwrap_or(number))
+            let firsts = notes.firsts.as_deref().unwrap_or_default();
+            leaf.beginning(firsts.get(number as usize).copied().unwrap_or(number))
         })
     }
 

@@ -14,8 +14,10 @@ use super::player::Player;
 use super::renderer::Renderer;
 use super::schedule::Schedule;
 use super::screen::Screen;
+use super::seeing::Seeing;
 use super::session::{Effect, Session};
 use super::showing::Part;
+use super::sight::Sight;
 use super::state::{GpuState, Message, SaveProgress, Work};
 use super::task::{Destination, Task};
 use super::translation::Translation;
@@ -62,6 +64,8 @@ pub struct Application {
     pub(super) figures: Figures,
     /// How far the picture is from the oracle's.
     pub(super) comparison: Comparison,
+    /// The work behind it.
+    pub(super) sight: Sight,
     pub(super) scene: Option<Arc<Scene>>,
     /// What the scene was made from.
     pub(super) source: Source,
@@ -129,6 +133,7 @@ impl Application {
             last_draft: Draft::FINE,
             figures: Figures::default(),
             comparison: Comparison::default(),
+            sight: Sight::default(),
             scene: None,
             source: options.source.clone(),
             focus: None,
@@ -157,6 +162,7 @@ impl Application {
             mailbox,
             options,
         };
+        application.session.seeing = Seeing::new(application.options.structure.parts.traversal);
         application.load(application.options.source.clone());
         match application.options.backend {
             BackendChoice::Cpu => {}

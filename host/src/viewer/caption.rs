@@ -6,7 +6,7 @@ use crate::tone::{self, Curve};
 use clap::ValueEnum;
 
 /// What every key and every drag does.
-const HELP: [(&str, &str); 20] = [
+const HELP: [(&str, &str); 24] = [
     ("left drag", "turn the camera"),
     ("right drag", "turn the light"),
     ("middle drag, Shift+drag", "pan"),
@@ -23,10 +23,14 @@ const HELP: [(&str, &str); 20] = [
     ("B", "CPU or GPU"),
     ("I", "figures on or off"),
     ("O", "compare with the oracle"),
+    ("V, Shift+V", "what pixels tell: next, previous"),
+    ("C", "cells: leaves, a level, under the pointer"),
+    ("> <", "level of the cells"),
+    ("Ctrl + left click", "pin a ray"),
     ("H, ?", "this list"),
     ("Ctrl+S", "save the picture"),
     ("drop a scene or mesh file", "look at it"),
-    ("Esc", "quit"),
+    ("Esc", "unpin, quit"),
 ];
 
 /// What the figures are about.

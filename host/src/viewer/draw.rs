@@ -49,7 +49,7 @@ impl Application {
                 }
             }
         }
-        let showing = self.showing();
+        let (image, showing) = self.shown().unwrap_or((image, self.showing()));
         let veiled = self.veiled_overlay();
         let Some(screen) = &mut self.screen else { return };
         if !screen.shows(&image) {
@@ -87,10 +87,10 @@ impl Application {
         }
     }
 
-    /// The overlay over what the oracle finds, if that is to be seen.
+    /// The overlay over what the oracle finds and over lines of cells, if those are to be seen.
     pub(super) fn veiled_overlay(&self) -> Option<Overlay> {
-        let findings = self.findings()?;
-        Some(veiled(&self.overlay, findings, self.part, self.session.size))
+        let findings = self.findings();
+        self.lined(findings.map(|findings| veiled(&self.overlay, findings, self.part, self.session.size)))
     }
 
     fn update_overlay(&mut self, now: Instant) {
@@ -115,6 +115,7 @@ impl Application {
         if self.session.oracle {
             panels.push(self.oracle_legend());
         }
+        panels.extend(self.sight_panels(Overlay::columns(self.session.size[0], scale).min(60)));
         self.set_panels(panels, scale);
     }
 

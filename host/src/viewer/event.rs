@@ -138,6 +138,7 @@ fn key(logical: &WinitKey, physical: PhysicalKey) -> Option<Key> {
     };
     Some(Key::Character(match code {
         KeyCode::KeyB => 'b',
+        KeyCode::KeyC => 'c',
         KeyCode::KeyF => 'f',
         KeyCode::KeyH => 'h',
         KeyCode::KeyI => 'i',
@@ -147,6 +148,7 @@ fn key(logical: &WinitKey, physical: PhysicalKey) -> Option<Key> {
         KeyCode::KeyR => 'r',
         KeyCode::KeyS => 's',
         KeyCode::KeyT => 't',
+        KeyCode::KeyV => 'v',
         KeyCode::Digit3 => '3',
         KeyCode::Equal => '=',
         KeyCode::Minus => '-',

@@ -2,10 +2,11 @@
 
 use super::event::{Button, Key};
 use super::step::{Expectation, Step};
+use crate::insight::Aspect;
 use crate::nearest::nearest;
 use std::path::PathBuf;
 
-const STEPS: [&str; 15] = [
+const STEPS: [&str; 19] = [
     "drag",
     "double-click",
     "wheel",
@@ -17,6 +18,10 @@ const STEPS: [&str; 15] = [
     "save",
     "screenshot",
     "oracle",
+    "show",
+    "move",
+    "pin",
+    "unpin",
     "print",
     "wait",
     "expect",
@@ -26,8 +31,9 @@ const DRAGS: [&str; 4] = ["left", "right", "middle", "shift+left"];
 const WAITS: [&str; 5] = ["settled", "frames", "samples", "reloaded", "milliseconds"];
 const EXPECTATIONS: [&str; 4] = ["first-picture", "backend", "triangles", "message"];
 /// The keys that mean something.
-pub const KEYS: [&str; 21] = [
-    "F", "R", "P", "M", "T", "+", "=", "-", ".", ",", "3", "[", "]", "B", "H", "?", "I", "O", "Ctrl+S", "Esc", "Escape",
+pub const KEYS: [&str; 25] = [
+    "F", "R", "P", "M", "T", "+", "=", "-", ".", ",", "3", "[", "]", "B", "H", "?", "I", "O", "V", "C", ">", "<",
+    "Ctrl+S", "Esc", "Escape",
 ];
 
 /// The first word of a text, and the rest of it.
@@ -58,12 +64,16 @@ pub fn step(line: &str) -> Result<Step, String> {
             "off" => Step::Oracle(false),
             _ => return Err(unknown(rest, "state of the oracle", &["on", "off"])),
         },
+        "show" => Step::Show(shown(rest)?),
+        "move" => Step::Move(place(word, rest)?),
+        "pin" => Step::Pin(place(word, rest)?),
         "wait" => wait(rest)?,
         "expect" => Step::Expect(expectation(rest)?),
         "double-click" => alone(word, rest, Step::DoubleClick)?,
         "minimise" => alone(word, rest, Step::Minimise)?,
         "restore" => alone(word, rest, Step::Restore)?,
         "print" => alone(word, rest, Step::Print)?,
+        "unpin" => alone(word, rest, Step::Unpin)?,
         "quit" => alone(word, rest, Step::Quit)?,
         _ => return Err(unknown(word, "step", &STEPS)),
     })
@@ -86,6 +96,29 @@ fn drag(rest: &str) -> Result<Step, String> {
             down: *down,
         }),
         _ => Err("give the pixels to the right and downwards, for example: drag left 100 -50".into()),
+    }
+}
+
+/// What pixels are to tell; nothing for the picture.
+fn shown(name: &str) -> Result<Option<Aspect>, String> {
+    let aspect = Aspect::ALL.into_iter().find(|aspect| aspect.name() == name);
+    match (aspect, name) {
+        (None, "picture") => Ok(None),
+        (Some(aspect), _) => Ok(Some(aspect)),
+        (None, _) => {
+            let names: Vec<&str> = ["picture"].into_iter().chain(Aspect::ALL.map(Aspect::name)).collect();
+            Err(unknown(name, "thing to show", &names))
+        }
+    }
+}
+
+/// A place in the window.
+fn place(step: &str, rest: &str) -> Result<[f64; 2], String> {
+    match numbers::<f64>(rest)?.as_slice() {
+        [x, y] if (0.0..1e6).contains(x) && (0.0..1e6).contains(y) => Ok([*x, *y]),
+        _ => Err(format!(
+            "give pixels from the left and from the top, for example: {step} 320 240"
+        )),
     }
 }
 

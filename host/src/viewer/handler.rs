@@ -35,6 +35,7 @@ impl Application {
         let playing = self.play(now);
         let working = self.work(now);
         self.compare();
+        self.look_into();
         let waiting = self.message.as_ref().map(|message| message.until);
         [
             playing,
@@ -122,6 +123,7 @@ impl ApplicationHandler<Notice> for Application {
     fn exiting(&mut self, _: &ActiveEventLoop) {
         self.renderer.cancel();
         self.comparison.stop();
+        self.sight.stop();
         self.abandon_saves();
         // The screen goes before the window, and both before the event loop.
         self.image = None;

@@ -1,5 +1,6 @@
 //! What can be asked of the viewer.
 
+use super::seeing::See;
 use std::path::PathBuf;
 
 /// Something that a person, or a script, asks for; where it came from can no longer be told.
@@ -65,6 +66,10 @@ pub enum Input {
         /// The scale factor, 1 and up.
         scale: f64,
     },
+    /// See something of the work behind the picture.
+    See(See),
+    /// Undo what is on top, or close the window.
+    Leave,
     /// Close the window.
     Quit,
 }

@@ -11,6 +11,7 @@ use crate::scene::Scene;
 use crate::source::Source;
 use crate::structure::StructureOptions;
 use crate::view::View;
+use glam::DVec3;
 use std::sync::Arc;
 use std::thread;
 use std::time::SystemTime;
@@ -24,6 +25,8 @@ pub struct Arrival {
     pub view: View,
     /// What is looked at, where the source says so.
     pub focus: Option<Focus>,
+    /// What the mesh was moved by: see [`crate::mesh::Mesh::shift`].
+    pub shift: DVec3,
     /// Size of the picture in pixels, where the source says so.
     pub size: Option<[u32; 2]>,
     /// The files that were read.
@@ -73,7 +76,7 @@ fn arrive(
 ) -> Result<Box<Arrival>, LoadError> {
     let setting = source.load(progress)?;
     let stamps = Stamps::new(setting.files, began);
-    let focus = setting.model.focus;
+    let (focus, shift) = (setting.model.focus, setting.model.mesh.shift);
     let scene = Scene::of_model(setting.model, structure, progress).map_err(|error| LoadError::Scene {
         name: source.to_string(),
         source: error,
@@ -82,6 +85,7 @@ fn arrive(
         scene: Arc::new(scene),
         view: setting.view,
         focus,
+        shift,
         size: setting.size,
         stamps,
     }))

@@ -67,6 +67,10 @@ impl Application {
         self.paces = [Paces::guessed(arrival.scene.is_plain()); 2];
         self.scene = Some(arrival.scene);
         self.focus = arrival.focus;
+        self.sight.shift = arrival.shift;
+        if !loading.is_reload {
+            self.session.seeing.pin = None;
+        }
         self.source = loading.source;
         self.watcher.watch(arrival.stamps);
         self.message.take_if(|message| message.is_about_load);

@@ -67,6 +67,7 @@ impl Application {
                 }
             }
             Notice::Compared { number, result } => self.take_comparison(number, result),
+            Notice::Told { desk, number, told } => self.take_told(desk, number, told),
             Notice::Saving { path, fraction } => {
                 self.saving = Some(SaveProgress { path, fraction });
                 self.redraw();

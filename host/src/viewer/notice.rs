@@ -3,6 +3,7 @@
 use super::accident::Accident;
 use super::loader::{Arrival, Refusal};
 use super::oracle::Findings;
+use super::sight::Told;
 use crate::backend::BackendError;
 use crate::backend::gpu::{Gpu, GpuPicture, Kernel};
 use crate::output::OutputError;
@@ -59,6 +60,15 @@ pub enum Notice {
         number: u64,
         /// What came of it.
         result: Result<Arc<Findings>, String>,
+    },
+    /// What was found out about the work behind the picture.
+    Told {
+        /// Who found it out.
+        desk: usize,
+        /// Number of the question.
+        number: u64,
+        /// What.
+        told: Told,
     },
     /// How far a picture is that is to be written.
     Saving {

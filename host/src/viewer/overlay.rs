@@ -1,5 +1,6 @@
 //! Text over the picture.
 
+use crate::insight::Palette;
 use embedded_graphics::Pixel;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{Dimensions, Point, Size};
@@ -17,8 +18,10 @@ const MARGIN: u32 = 8;
 const LINE: u32 = 17;
 /// Width of a character, pixels at scale 1.
 const COLUMN: u32 = FONT_8X13.character_size.width;
-/// Colour of the panels, sRGB-encoded, with their opacity.
-const PANEL: u32 = texel([14, 18, 24], 222);
+/// Colour of the panels, sRGB-encoded.
+pub const PANEL_COLOR: [u8; 3] = [14, 18, 24];
+/// The same with their opacity.
+const PANEL: u32 = texel(PANEL_COLOR, 222);
 
 /// How a line is to look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,6 +34,8 @@ pub enum Tone {
     Warning,
     /// As what has that colour, sRGB-encoded.
     Colored([u8; 3]),
+    /// As a bar of all colours of a map, as wide as the text.
+    Gradient(Palette),
 }
 
 /// A line of text.
@@ -162,12 +167,26 @@ impl Canvas {
             Tone::Strong => (&FONT_8X13_BOLD, Rgb888::new(250, 250, 250)),
             Tone::Warning => (&FONT_8X13_BOLD, Rgb888::new(255, 190, 92)),
             Tone::Colored([red, green, blue]) => (&FONT_8X13_BOLD, Rgb888::new(red, green, blue)),
+            Tone::Gradient(palette) => {
+                self.gradient(palette, line.text.chars().count() as u32 * COLUMN, at);
+                return;
+            }
         };
         let style = MonoTextStyle::new(font, color);
         let text = embedded_graphics::Drawable::draw(&Text::with_baseline(&line.text, at, style, Baseline::Top), self);
         match text {
             Ok(_) => {}
             Err(never) => match never {},
+        }
+    }
+
+    /// The colours of a map from left to right.
+    fn gradient(&mut self, palette: Palette, width: u32, at: Point) {
+        for x in 0..width {
+            let color = palette.color(f64::from(x) / f64::from((width - 1).max(1)));
+            for y in 0..FONT_8X13.character_size.height {
+                self.set(at + Point::new(x as i32, y as i32), texel(color, u8::MAX));
+            }
         }
     }
 

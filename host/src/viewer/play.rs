@@ -6,6 +6,7 @@ use super::event::Event;
 use super::input::Input;
 use super::notice::Image;
 use super::player::{self, Counts, PATIENCE};
+use super::seeing::See;
 use super::step::{Expectation, Step};
 use crate::output::PictureFile;
 use std::io::Write;
@@ -126,6 +127,18 @@ impl Application {
                     self.take_input(Input::ToggleOracle, now);
                 }
             }
+            Step::Show(aspect) => {
+                if let Some(aspect) = aspect.filter(|aspect| !self.session.seeing.is_told(*aspect)) {
+                    return Err(format!(
+                        "{aspect} means nothing with --traversal {}; show something else",
+                        self.options.structure.parts.traversal
+                    ));
+                }
+                self.take_input(Input::See(See::Aspect(*aspect)), now);
+            }
+            Step::Move(at) => player.queue([Event::PointerMoved { x: at[0], y: at[1] }]),
+            Step::Pin(at) => player.queue(player::pin(*at)),
+            Step::Unpin => self.take_input(Input::See(See::Unpin), now),
             Step::Print => {
                 let text = self.report(now);
                 // Whoever closed standard output wants no more.
@@ -151,14 +164,14 @@ impl Application {
 
     fn screenshot(&mut self, path: &Path, now: Instant) -> Result<(), String> {
         self.draw(now);
-        let showing = self.showing();
+        let shown = self.shown();
         let veiled = self.veiled_overlay();
-        let (Some(screen), Some(image), true) = (&mut self.screen, &self.image, self.session.is_visible()) else {
+        let (Some(screen), Some((image, showing)), true) = (&mut self.screen, &shown, self.session.is_visible()) else {
             return Err("the window shows no picture yet; wait for it with: wait settled".into());
         };
         let size = self.session.size;
         let pixels = screen
-            .screenshot(image, veiled.as_ref().unwrap_or(&self.overlay), &showing, size)
+            .screenshot(image, veiled.as_ref().unwrap_or(&self.overlay), showing, size)
             .map_err(|error| error.to_string())?;
         PictureFile::create(path)
             .and_then(|file| file.save_rgb8(&pixels, size))

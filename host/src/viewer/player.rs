@@ -133,6 +133,17 @@ pub fn double_click() -> Vec<Event> {
     vec![button(true), button(false), button(true), button(false)]
 }
 
+/// The events of a pin.
+pub fn pin([x, y]: [f64; 2]) -> Vec<Event> {
+    let modifiers = |control| Event::Modifiers(Modifiers { shift: false, control });
+    let button = |pressed| Event::Button {
+        button: Button::Left,
+        pressed,
+    };
+    let moved = Event::PointerMoved { x, y };
+    vec![moved, modifiers(true), button(true), button(false), modifiers(false)]
+}
+
 /// The events of a key.
 pub fn key(key: Key, control: bool) -> Vec<Event> {
     let modifiers = |control| Event::Modifiers(Modifiers { shift: false, control });
@@ -142,6 +153,7 @@ pub fn key(key: Key, control: bool) -> Vec<Event> {
 #[cfg(test)]
 mod tests {
     use super::super::input::Input;
+    use super::super::seeing::See;
     use super::super::translation::Translation;
     use super::*;
 
@@ -175,5 +187,6 @@ mod tests {
         assert_eq!(inputs(double_click()), [Input::Frame]);
         assert_eq!(inputs(key(Key::Character('s'), true)), [Input::Save(None)]);
         assert_eq!(inputs(key(Key::Character('s'), false)), []);
+        assert_eq!(inputs(pin([3.0, 4.0])), [Input::See(See::Pin([3.0, 4.0]))]);
     }
 }

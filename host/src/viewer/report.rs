@@ -47,6 +47,9 @@ impl Application {
             let text = count.map_or_else(|| "-".into(), |count| count.to_string());
             line(&format!("oracle-{}", kind.name()), text);
         }
+        for (name, value) in self.sight_report() {
+            line(name, value);
+        }
         line("first-picture", number(first));
         line("frames", self.figures.frames.to_string());
         line("frames-a-second", number(caption.frames_a_second));

@@ -80,6 +80,7 @@ mod tests {
     use super::super::event::{Button, Key};
     use super::super::step::Expectation;
     use super::*;
+    use crate::insight::Aspect;
 
     fn steps(text: &str) -> Vec<Step> {
         let script = Script::parse(text, "test").unwrap();
@@ -110,6 +111,11 @@ mod tests {
             screenshot shot.png
             oracle on
             oracle off
+            show leaf-depth
+            show picture
+            move 3 4.5
+            pin 320 240
+            unpin
             print
             wait settled
             wait frames 3
@@ -148,6 +154,11 @@ mod tests {
                 Step::Screenshot("shot.png".into()),
                 Step::Oracle(true),
                 Step::Oracle(false),
+                Step::Show(Some(Aspect::LeafDepth)),
+                Step::Show(None),
+                Step::Move([3.0, 4.5]),
+                Step::Pin([320.0, 240.0]),
+                Step::Unpin,
                 Step::Print,
                 Step::WaitSettled,
                 Step::WaitFrames(3),
@@ -190,6 +201,10 @@ mod tests {
             "wait frames -1",
             "quit now",
             "oracle maybe",
+            "show everything",
+            "pin 3",
+            "move -1 2",
+            "unpin all",
             "expect message",
             "expect backend tpu",
         ] {

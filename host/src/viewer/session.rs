@@ -6,12 +6,14 @@ mod steering;
 mod tests;
 
 use super::input::Input;
+use super::seeing::{See, Seeing};
 use crate::model::Focus;
 use crate::sampling::Samples;
 use crate::stereo::{Stereo, StereoMode};
 use crate::tone::Curve;
 use crate::view::{Shading, View};
 use glam::Vec3;
+use oktant_shared::parts::TraversalKind;
 use oktant_shared::whitted::MAX_DEPTH;
 use std::path::PathBuf;
 
@@ -39,6 +41,8 @@ pub struct Session {
     pub figures: bool,
     /// Whether the picture is compared with the oracle's.
     pub oracle: bool,
+    /// What is shown of the work behind the picture.
+    pub seeing: Seeing,
     /// The view that came with the scene, changed as the command line says.
     home: View,
     /// What places are counted from.
@@ -78,6 +82,7 @@ impl Session {
             help: false,
             figures: true,
             oracle: false,
+            seeing: Seeing::new(TraversalKind::default()),
             home: view,
             focus: Focus {
                 center: Vec3::ZERO,
@@ -139,10 +144,18 @@ impl Session {
                 self.oracle = !self.oracle;
                 return Effect::Redraw;
             }
+            Input::See(wish) => {
+                self.seeing.apply(wish, &self.view, self.size);
+                return Effect::Redraw;
+            }
+            Input::Leave if self.seeing.pin.is_some() => {
+                self.seeing.apply(See::Unpin, &self.view, self.size);
+                return Effect::Redraw;
+            }
             Input::SwitchBackend => return Effect::SwitchBackend,
             Input::Save(path) => return Effect::Save(path),
             Input::Open(path) => return Effect::Open(path),
-            Input::Quit => return Effect::Quit,
+            Input::Leave | Input::Quit => return Effect::Quit,
         }
         let same_picture = View {
             tone: before.tone,

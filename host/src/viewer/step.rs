@@ -1,6 +1,7 @@
 //! The steps of a script.
 
 use super::event::{Button, Key};
+use crate::insight::Aspect;
 use std::path::PathBuf;
 
 /// A step of a script.
@@ -42,6 +43,14 @@ pub enum Step {
     Screenshot(PathBuf),
     /// Compare the picture with the oracle's, or no longer.
     Oracle(bool),
+    /// Show what pixels tell in the place of the picture, or the picture.
+    Show(Option<Aspect>),
+    /// Move the pointer there, in pixels from the upper left corner.
+    Move([f64; 2]),
+    /// Pin the ray of a pixel.
+    Pin([f64; 2]),
+    /// Pin none.
+    Unpin,
     /// Print the figures.
     Print,
     /// Wait until nothing changes any more.

@@ -2,6 +2,7 @@
 
 use super::event::{Button, Event, Key, Modifiers};
 use super::input::Input;
+use super::seeing::See;
 use std::time::{Duration, Instant};
 
 /// Two presses within this time are a double click.
@@ -53,6 +54,10 @@ impl Translation {
                     Button::Middle => Some(Input::Pan { right, down }),
                 }
             }
+            Event::Button {
+                button: Button::Left,
+                pressed: true,
+            } if self.modifiers.control => self.pointer.map(|at| Input::See(See::Pin(at))),
             Event::Button { button, pressed: true } => {
                 self.held = Some(button);
                 if button == Button::Left {
@@ -88,6 +93,11 @@ impl Translation {
         }
     }
 
+    /// Where the pointer is, physical pixels from the window's upper left corner; none where nobody has seen it.
+    pub fn pointer(&self) -> Option<[f64; 2]> {
+        self.pointer
+    }
+
     fn click(&mut self, now: Instant) -> Option<Input> {
         let at = self.pointer.unwrap_or_default();
         match self.last_click {
@@ -110,7 +120,7 @@ impl Translation {
 
     fn key(&self, key: Key) -> Option<Input> {
         Some(match key {
-            Key::Escape => Input::Quit,
+            Key::Escape => Input::Leave,
             Key::Character('s') if self.modifiers.control => Input::Save(None),
             Key::Character(_) if self.modifiers.control => return None,
             Key::Character('f') => Input::Frame,
@@ -129,6 +139,11 @@ impl Translation {
             Key::Character('h' | '?') => Input::ToggleHelp,
             Key::Character('i') => Input::ToggleFigures,
             Key::Character('o') => Input::ToggleOracle,
+            Key::Character('v') if self.modifiers.shift => Input::See(See::Previous),
+            Key::Character('v') => Input::See(See::Next),
+            Key::Character('c') => Input::See(See::NextCells),
+            Key::Character('>') => Input::See(See::Deeper(1)),
+            Key::Character('<') => Input::See(See::Deeper(-1)),
             Key::Character(_) => return None,
         })
     }
@@ -269,6 +284,10 @@ mod tests {
             ('?', Some(Input::ToggleHelp)),
             ('i', Some(Input::ToggleFigures)),
             ('o', Some(Input::ToggleOracle)),
+            ('v', Some(Input::See(See::Next))),
+            ('c', Some(Input::See(See::NextCells))),
+            ('>', Some(Input::See(See::Deeper(1)))),
+            ('<', Some(Input::See(See::Deeper(-1)))),
             ('w', None),
             ('a', None),
             ('s', None),
@@ -276,9 +295,16 @@ mod tests {
         ] {
             assert_eq!(hand.does(character(key)), input, "{key}");
         }
-        assert_eq!(hand.does(Event::Key(Key::Escape)), Some(Input::Quit));
+        assert_eq!(hand.does(Event::Key(Key::Escape)), Some(Input::Leave));
         assert_eq!(hand.does(Event::CloseRequested), Some(Input::Quit));
+        hand.modifiers(true, false);
+        assert_eq!(hand.does(character('v')), Some(Input::See(See::Previous)));
         hand.modifiers(false, true);
+        assert_eq!(hand.press(Button::Left), None, "nobody knows where");
+        hand.moves(7.0, 9.0);
+        assert_eq!(hand.press(Button::Left), Some(Input::See(See::Pin([7.0, 9.0]))));
+        assert_eq!(hand.moves(8.0, 9.0), None, "a pin is not dragged");
+        hand.release(Button::Left);
         assert_eq!(hand.does(character('s')), Some(Input::Save(None)));
         assert_eq!(hand.does(character('f')), None, "Ctrl+F is something else");
         assert_eq!(hand.does(Event::Wheel(1.5)), Some(Input::Zoom(1.5)));

@@ -112,6 +112,7 @@ impl Application {
         self.schedule.is_settled()
             && self.is_shown
             && self.is_compared()
+            && self.has_looked()
             && self.loads.loading().is_none()
             && self.work == Work::Idle
             && self.saving.is_none()

@@ -8,6 +8,7 @@ mod files;
 mod look;
 mod oracle;
 mod saves;
+mod sight;
 mod start;
 mod window;
 

@@ -1,9 +1,10 @@
 //! Where pictures go.
 
-use super::values::{Aovs, aovs};
+use super::values::{Aovs, aovs, cells};
 use crate::cli::Failure;
 use clap::{Args, ValueEnum};
 use oktant::output::{AnimationFormat, Bits};
+use oktant::wires::Selection;
 use std::borrow::Cow;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -28,6 +29,10 @@ pub struct FileArguments {
     /// any of depth, normal, id, barycentrics, samples and rays, separated by commas, or all.
     #[arg(long, value_name = "LIST|all", value_parser = aovs, default_value = "", hide_default_value = true)]
     pub aov: Aovs,
+    /// Draw cells of the structure over a PNG picture: all leaves, a level (the root's is 0), or what the ray through the middle
+    /// of a pixel visits.
+    #[arg(long, value_name = "all|LEVEL|X,Y", value_parser = cells, conflicts_with_all = ["bits", "reference", "frames"])]
+    pub cells: Option<Selection>,
 }
 
 /// A format of what goes to standard output.
@@ -51,6 +56,7 @@ impl FileArguments {
             format: None,
             bits: None,
             aov: Aovs::default(),
+            cells: None,
         }
     }
 

@@ -8,6 +8,7 @@ use oktant::oracle::whitted::Takes;
 use oktant::picture::{DEFAULT_SIZE, LARGEST_PICTURE, LARGEST_SIDE};
 use oktant::preferences::Preferences;
 use oktant::tree::BuildPreset;
+use oktant::wires::Selection;
 use oktant_shared::octree::MAX_DEPTH;
 use oktant_shared::parts::{BoxKind, TraversalKind, TriangleKind};
 
@@ -173,9 +174,30 @@ pub fn aovs(text: &str) -> Result<Aovs, String> {
     Ok(Aovs(list))
 }
 
+/// Cells to draw.
+pub fn cells(text: &str) -> Result<Selection, String> {
+    let wanted = "give all, a level such as 3, or a pixel such as 640,480";
+    let whole = |text: &str| text.trim().parse::<u32>().map_err(|_| wanted.to_owned());
+    match text.split_once(',') {
+        Some((x, y)) => Ok(Selection::Pixel([whole(x)?, whole(y)?])),
+        None if text == "all" => Ok(Selection::Leaves),
+        None => whole(text).map(Selection::Level),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn selections_of_cells() {
+        assert_eq!(cells("all"), Ok(Selection::Leaves));
+        assert_eq!(cells("3"), Ok(Selection::Level(3)));
+        assert_eq!(cells("640, 12"), Ok(Selection::Pixel([640, 12])));
+        for bad in ["", "some", "-1", "1.5", "1,2,3", "1,"] {
+            assert!(cells(bad).is_err(), "{bad}");
+        }
+    }
 
     #[test]
     fn sizes() {

@@ -144,6 +144,14 @@ fn switches() {
     assert_eq!(session.apply(Input::SwitchBackend), Effect::SwitchBackend);
     assert_eq!(session.apply(Input::Save(None)), Effect::Save(None));
     assert_eq!(session.apply(Input::Quit), Effect::Quit);
+    assert_eq!(session.apply(Input::See(See::Pin([3.0, 4.0]))), Effect::Redraw);
+    assert_eq!(
+        session.seeing.pin.map(|pin| (pin.pixel, pin.view)),
+        Some(([3, 4], session.view))
+    );
+    assert_eq!(session.apply(Input::Leave), Effect::Redraw, "unpins first");
+    assert_eq!(session.seeing.pin, None);
+    assert_eq!(session.apply(Input::Leave), Effect::Quit);
     let minimised = Input::Resize {
         size: [0, 0],
         scale: 1.0,

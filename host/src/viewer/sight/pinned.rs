@@ -1,0 +1,285 @@
+//! What becomes of the ray of a pixel.
+
+use crate::backend::Query;
+use crate::bench::{Counts, count_each};
+use crate::insight::shortened;
+use crate::scene::Scene;
+use crate::seen::{middles, surface_of};
+use crate::source::Source;
+use crate::structure::StructureOptions;
+use crate::trace::Cell;
+use crate::viewer::overlay::{Line, Tone, wrap};
+use crate::wires::visited;
+use glam::{DVec3, UVec2, Vec3};
+use oktant_shared::frame::Frame;
+use oktant_shared::hit::Hit;
+use oktant_shared::parts::Parts;
+use oktant_shared::plane::PLANE;
+use oktant_shared::ray::Ray;
+use oktant_shared::render::sample_ray;
+use oktant_shared::trace::nearest_plane;
+use std::fmt::Write;
+
+/// A ray, and what it met and visited.
+#[derive(Clone, Debug)]
+pub struct Pinned {
+    pixel: [u32; 2],
+    found: Option<Found>,
+    /// What the structure cost.
+    counts: Counts,
+    /// What it visited, each once.
+    pub cells: Vec<Cell>,
+    /// The command that traces it again.
+    pub command: Option<String>,
+}
+
+/// What a ray met.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    /// With the triangle's id, or the plane.
+    hit: Hit,
+    /// The unit normal that shades.
+    normal: Vec3,
+    /// Index of the material.
+    material: u32,
+}
+
+/// Levels of which the panel says how many cells were visited.
+const LEVELS: u32 = 8;
+
+impl Pinned {
+    /// Traces the ray through the middle of a pixel.
+    pub fn new(scene: &Scene, frame: &Frame, pixel: [u32; 2]) -> Self {
+        let frame = middles(frame);
+        let (world, ray) = (scene.world(), ray(&frame, pixel));
+        let limited = shortened(scene, ray);
+        let (in_slot, cells) = visited(scene, &limited);
+        let nearest = if in_slot.is_hit() {
+            in_slot
+        } else {
+            nearest_plane(&scene.planes, scene.plane_count, &ray)
+        };
+        let found = nearest.is_hit().then(|| {
+            let surface = surface_of(scene)(&frame, &world, &ray, &nearest);
+            let hit = if in_slot.is_hit() {
+                world.scene.identified(in_slot)
+            } else {
+                nearest
+            };
+            Found {
+                hit,
+                normal: surface.normal,
+                material: surface.material_id,
+            }
+        });
+        Pinned {
+            pixel,
+            found,
+            counts: count_each(scene, scene.parts, Query::Closest, &[limited])
+                .into_iter()
+                .sum(),
+            cells,
+            command: None,
+        }
+    }
+
+    /// With the command that traces the ray again, in a scene of that source whose mesh was moved by `shift`; `oktant trace`
+    /// takes no planes.
+    pub fn replayed(
+        self,
+        scene: &Scene,
+        frame: &Frame,
+        source: &Source,
+        shift: DVec3,
+        structure: &StructureOptions,
+    ) -> Self {
+        let command = (scene.plane_count == 0).then(|| {
+            let Ray { origin, direction, .. } = ray(&middles(frame), self.pixel);
+            let origin = origin.as_dvec3() + shift;
+            // The shortest decimals that are the same f32 again, where nothing was moved.
+            let places: Vec<String> = if shift == DVec3::ZERO {
+                origin.as_vec3().to_array().map(|place| place.to_string()).into()
+            } else {
+                origin.to_array().map(|place| place.to_string()).into()
+            };
+            let numbers: Vec<String> = places
+                .into_iter()
+                .chain(direction.to_array().map(|part| part.to_string()))
+                .collect();
+            format!(
+                "oktant trace {} --ray {}{}",
+                quoted(&source.to_string()),
+                numbers.join(","),
+                options(structure)
+            )
+        });
+        Pinned { command, ..self }
+    }
+
+    /// The panel about it, of so many characters a line.
+    pub fn lines(&self, columns: usize) -> Vec<Line> {
+        let mut panel = Vec::new();
+        let mut add = |text: String, tone| {
+            let lines = wrap(&text, columns).into_iter();
+            panel.extend(lines.map(|text| Line { text, tone }));
+        };
+        let [x, y] = self.pixel;
+        add(format!("pinned: the ray of pixel {x}, {y}   Esc: unpin"), Tone::Strong);
+        match &self.found {
+            Some(Found { hit, normal, material }) => {
+                let what = if hit.triangle & PLANE == 0 {
+                    format!("triangle {}, u {:.4}, v {:.4}", hit.triangle, hit.u, hit.v)
+                } else {
+                    format!("plane {}", hit.triangle & !PLANE)
+                };
+                add(format!("{what}, t {}", hit.t), Tone::Plain);
+                let [x, y, z] = normal.to_array();
+                add(
+                    format!("normal {x:.3}, {y:.3}, {z:.3}, material {material}"),
+                    Tone::Plain,
+                );
+            }
+            None => add("hits nothing".into(), Tone::Plain),
+        }
+        add(
+            format!(
+                "{} steps, {} triangle tests, {} boxes",
+                self.counts.nodes,
+                self.counts.triangle_tests,
+                self.cells.len()
+            ),
+            Tone::Plain,
+        );
+        let deepest = self.cells.iter().map(|cell| cell.depth).max().unwrap_or(0);
+        let of_level = |level| self.cells.iter().filter(|cell| cell.depth == level).count();
+        let levels: Vec<String> = (0..=deepest.min(LEVELS - 1))
+            .map(|level| of_level(level).to_string())
+            .collect();
+        let more = if deepest >= LEVELS { ", ..." } else { "" };
+        add(
+            format!("by level from 0 to {deepest}: {}{more}", levels.join(", ")),
+            Tone::Plain,
+        );
+        add(
+            self.command
+                .clone()
+                .unwrap_or_else(|| "oktant trace takes no scenes with planes".into()),
+            Tone::Plain,
+        );
+        panel
+    }
+
+    /// What the step `print` says: the triangle, `t`, steps, triangle tests and boxes.
+    pub fn report(&self) -> String {
+        let hit = self
+            .found
+            .map(|found| format!("{} {}", found.hit.triangle, found.hit.t));
+        format!(
+            "{} {} {} {}",
+            hit.unwrap_or_else(|| "- -".into()),
+            self.counts.nodes,
+            self.counts.triangle_tests,
+            self.cells.len()
+        )
+    }
+}
+
+/// The ray through the middle of a pixel.
+fn ray(frame: &Frame, [x, y]: [u32; 2]) -> Ray {
+    sample_ray(frame, UVec2::new(x, y), 0)
+}
+
+/// A name as shells take it.
+fn quoted(name: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "/._-+".contains(c);
+    if name.chars().all(is_plain) {
+        name.into()
+    } else {
+        format!("'{}'", name.replace('\'', r"'\''"))
+    }
+}
+
+/// The options that lead to a structure, where they are not as usual.
+fn options(structure: &StructureOptions) -> String {
+    let usual = StructureOptions::default();
+    let mut text = String::new();
+    let Parts {
+        traversal,
+        triangle,
+        box_test,
+    } = structure.parts;
+    for (name, is, usually) in [
+        ("traversal", traversal.to_string(), usual.parts.traversal.to_string()),
+        ("triangle", triangle.to_string(), usual.parts.triangle.to_string()),
+        ("box", box_test.to_string(), usual.parts.box_test.to_string()),
+        ("build", structure.preset.name().into(), usual.preset.name().into()),
+    ] {
+        if is != usually {
+            let _ = write!(text, " --{name} {is}");
+        }
+    }
+    let (octree, grid) = (structure.octree, structure.grid);
+    if octree != usual.octree {
+        let _ = write!(
+            text,
+            " --octree depth={},leaf={},budget={}",
+            octree.depth, octree.leaf, octree.budget
+        );
+    }
+    if grid != usual.grid {
+        let _ = write!(text, " --grid density={},budget={}", grid.density, grid.budget);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::balls;
+    use crate::mesh_source::MeshSource;
+    use crate::progress::silent;
+    use crate::trace::Trace;
+    use crate::view::View;
+    use oktant_shared::parts::TraversalKind;
+
+    /// Oracle: `oktant trace` of the same ray.
+    #[test]
+    fn a_pinned_ray_is_traced_as_by_its_command() {
+        let mesh = balls::balls();
+        for traversal in [TraversalKind::Octants, TraversalKind::Grid] {
+            let structure = StructureOptions::of(traversal);
+            let scene = Scene::new(&mesh, &structure, &silent).unwrap();
+            let frame = View::default().frame(&scene, 64, 48);
+            let source = Source::Mesh(MeshSource::Balls);
+            let mut hits = 0;
+            for pixel in [[32, 24], [20, 24], [40, 30], [0, 0]] {
+                let pinned = Pinned::new(&scene, &frame, pixel);
+                let pinned = pinned.replayed(&scene, &frame, &source, DVec3::ZERO, &structure);
+                let command = pinned.command.clone().unwrap();
+                let numbers = command.split(' ').nth(4).unwrap().split(',');
+                let numbers: Vec<f32> = numbers.map(|number| number.parse().unwrap()).collect();
+                let ray = Ray::new(Vec3::from_slice(&numbers), Vec3::from_slice(&numbers[3..]));
+                assert_eq!(ray, super::ray(&middles(&frame), pixel), "{command}");
+                assert_eq!(command.ends_with(" --traversal grid"), traversal == TraversalKind::Grid);
+                let trace = Trace::new(&mesh, &scene, &ray);
+                let found = pinned.found.map(|found| (found.hit.triangle, f64::from(found.hit.t)));
+                assert_eq!(found, trace.hit.map(|hit| (hit.triangle, hit.t)), "{pixel:?}");
+                assert_eq!(pinned.counts.triangle_tests as usize, trace.tests.len());
+                assert_eq!(pinned.cells.len(), trace.visits.len(), "none is visited twice");
+                hits += usize::from(trace.hit.is_some());
+            }
+            assert!((1..4).contains(&hits), "{traversal}: {hits}");
+        }
+    }
+
+    #[test]
+    fn names_and_options_are_as_a_shell_takes_them() {
+        assert_eq!(quoted("a/b-1.ply"), "a/b-1.ply");
+        assert_eq!(quoted("it's mine.ply"), r"'it'\''s mine.ply'");
+        let mut structure = StructureOptions::of(TraversalKind::Octree);
+        structure.octree.depth = 5;
+        let text = options(&structure);
+        assert!(text.starts_with(" --traversal octree --octree depth=5,leaf="), "{text}");
+        assert_eq!(options(&StructureOptions::default()), "");
+    }
+}
