@@ -2,6 +2,7 @@
 
 use crate::mesh::Mesh;
 use crate::model::{CLAY, Model, needs_coordinates, plain_material};
+use crate::names::Names;
 use crate::source::Setting;
 use crate::view::View;
 use glam::{Vec2, Vec3};
@@ -93,6 +94,7 @@ impl Asset {
         Setting {
             model,
             view,
+            names: Names::default(),
             size: None,
             files: self.files,
         }

@@ -26,6 +26,7 @@ pub mod mesh;
 pub mod mesh_format;
 pub mod mesh_source;
 pub mod model;
+pub mod names;
 mod nearest;
 pub mod obj;
 pub mod octree;

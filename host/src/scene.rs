@@ -1,9 +1,11 @@
 //! A model with the structure that rays are traced through, in the arrays that the kernel reads.
 
 mod memory;
+mod staging;
 mod validate;
 
 pub use memory::Memory;
+pub use staging::Staging;
 pub use validate::InvalidModel;
 pub(crate) use validate::validate as validate_model;
 
@@ -26,10 +28,12 @@ use oktant_shared::texture::{NO_TEXTURE, Texture};
 use oktant_shared::triangle::{Triangle, Vertex};
 use oktant_shared::variant::{GLASS, IMAGE, LIGHTS, MATERIALS, MIRRORS, PLAIN, PLANES, TEXTURES, Variant};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Everything that rays meet, ready for a back end.
 ///
-/// Arrays that nothing refers to hold one element that nobody reads, because a GPU allows no empty buffers.
+/// Arrays that nothing refers to hold one element that nobody reads, because a GPU allows no empty buffers. Those that may be
+/// large are shared between scenes that differ only in their [`Staging`].
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// What pictures are rendered with; the structure is built for it.
@@ -37,21 +41,21 @@ pub struct Scene {
     /// The cube around everything.
     pub root: Root,
     /// The structure's nodes.
-    pub nodes: Vec<UVec4>,
+    pub nodes: Arc<Vec<UVec4>>,
     /// Slots of triangles, leaf by leaf; where triangles are indexed, the vertices of each slot.
-    pub references: Vec<u32>,
+    pub references: Arc<Vec<u32>>,
     /// The triangles by slot; none where they are indexed.
-    pub triangles: Vec<Triangle>,
+    pub triangles: Arc<Vec<Triangle>>,
     /// The corners of indexed triangles by vertex, in rows; else none.
-    pub corners: Vec<Vec4>,
+    pub corners: Arc<Vec<Vec4>>,
     /// The triangles' ids by slot.
-    pub ids: Vec<u32>,
+    pub ids: Arc<Vec<u32>>,
     /// Normals and colours by vertex; a single one where the mesh has neither, or normals of 32 bits beside its corners.
-    pub vertices: Vec<Vertex>,
+    pub vertices: Arc<Vec<Vertex>>,
     /// Texture coordinates by vertex; a single one where the mesh has none.
-    pub coordinates: Vec<Vec2>,
+    pub coordinates: Arc<Vec<Vec2>>,
     /// Index of the material by slot; a single one where the scene is plain.
-    pub material_ids: Vec<u32>,
+    pub material_ids: Arc<Vec<u32>>,
     /// The materials.
     pub materials: Vec<Material>,
     /// The light that a view moves; black where the model has none.
@@ -67,7 +71,7 @@ pub struct Scene {
     /// What materials and the environment refer to.
     pub textures: Vec<Texture>,
     /// The texels of all images.
-    pub texels: Vec<u32>,
+    pub texels: Arc<Vec<u32>>,
     /// What surrounds everything.
     pub environment: Environment,
     /// Ambient light, linear RGB.
@@ -184,40 +188,34 @@ impl Scene {
                 material.flags &= !VERTEX_COLORS;
             }
         }
-        let mut lights = model.lights.into_iter();
-        let light = lights.next().unwrap_or(Light {
-            color: Vec3::ZERO,
-            ..white_light()
-        });
-        let lights: Vec<_> = lights.collect();
         let brightest_around = brightest_around(&model.environment, &model.textures, &model.texels);
         let mut scene = Scene {
             parts,
             root: structure.root,
-            nodes: structure.nodes,
-            references: never_empty(structure.references),
+            nodes: Arc::new(structure.nodes),
+            references: shared(structure.references),
             triangles: if is_indexed {
-                Vec::new()
+                Arc::default()
             } else {
-                never_empty(structure.triangles)
+                shared(structure.triangles)
             },
             corners: if is_indexed {
-                never_empty(structure.corners)
+                shared(structure.corners)
             } else {
-                Vec::new()
+                Arc::default()
             },
-            ids: never_empty(structure.ids),
-            vertices: never_empty(vertices),
-            coordinates: never_empty(model.mesh.coordinates),
-            material_ids: never_empty(material_ids),
+            ids: shared(structure.ids),
+            vertices: shared(vertices),
+            coordinates: shared(model.mesh.coordinates),
+            material_ids: shared(material_ids),
             materials,
-            light,
-            light_count: lights.len() as u32,
-            lights: never_empty(lights),
+            light: white_light(),
+            light_count: 0,
+            lights: Vec::new(),
             plane_count: model.planes.len() as u32,
             planes: never_empty(model.planes),
             textures: never_empty(model.textures),
-            texels: never_empty(model.texels),
+            texels: shared(model.texels),
             environment: model.environment,
             ambient: model.ambient,
             brightest_around,
@@ -229,10 +227,16 @@ impl Scene {
             low,
             high,
         };
-        scene.needs = scene.needs();
-        scene.variant = Variant::least(scene.needs);
-        scene.lay_out_materials();
+        scene.set_lights(model.lights);
+        scene.settle();
         scene
+    }
+
+    /// Finds out what it needs, and by which variant it is rendered.
+    fn settle(&mut self) {
+        self.needs = self.needs();
+        self.variant = Variant::least(self.needs);
+        self.lay_out_materials();
     }
 
     /// To be rendered by another variant than the least that suffices; none where it does not.
@@ -250,7 +254,7 @@ impl Scene {
         let is_general = !matches!(self.parts, Parts::STANDARD | Parts::COMPACT);
         let looks = is_general || self.variant.offers() & MATERIALS != 0;
         if looks && self.material_ids.len() < self.ids.len() {
-            self.material_ids = vec![0; self.ids.len()];
+            self.material_ids = Arc::new(vec![0; self.ids.len()]);
         }
     }
 
@@ -275,7 +279,7 @@ impl Scene {
         if self.material_ids.len() < self.ids.len() {
             is_used[0] = true;
         } else {
-            for id in &self.material_ids {
+            for id in self.material_ids.iter() {
                 is_used[*id as usize] = true;
             }
         }
@@ -412,4 +416,8 @@ fn never_empty<T: Zeroable>(mut elements: Vec<T>) -> Vec<T> {
         elements.push(T::zeroed());
     }
     elements
+}
+
+fn shared<T: Zeroable>(elements: Vec<T>) -> Arc<Vec<T>> {
+    Arc::new(never_empty(elements))
 }

@@ -25,6 +25,12 @@ mod stereo;
 mod texture;
 pub(crate) mod vector;
 
+pub(crate) use color::{Radiance, Reflectance};
+pub(crate) use number::{
+    Amount, Degrees, Depth, Elevation, Exponent, FieldOfView, Height, Ior, Length, Part, Priority, Quantity, Steps,
+    Stops, Tolerance,
+};
+
 use crate::build_error::BuildError;
 use crate::progress::Progress;
 use crate::scene::SceneError;

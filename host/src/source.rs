@@ -3,6 +3,7 @@
 use crate::mesh_format::MeshFormat;
 use crate::mesh_source::{MeshError, MeshSource};
 use crate::model::Model;
+use crate::names::Names;
 use crate::preferences::Preferences;
 use crate::progress::Progress;
 use crate::scene_file::{self, SceneFileError};
@@ -18,6 +19,8 @@ pub struct Setting {
     pub model: Model,
     /// From where, and how.
     pub view: View,
+    /// What its file calls its parts.
+    pub names: Names,
     /// Width and height of the picture in pixels, where the scene says so.
     pub size: Option<[u32; 2]>,
     /// The files that it was read from: where one of them changes, it may look different.

@@ -155,6 +155,22 @@ impl View {
         self.light = Place::at(offset, focus.radius, self.up);
     }
 
+    /// A light, moved to where this view's first one is, in a scene with that focus.
+    pub fn lit(&self, light: &Light, focus: Focus) -> Light {
+        placed(light, &self.orbit(&self.light, focus.center, focus))
+    }
+
+    /// The sphere about a centre on which a place lies.
+    fn orbit(&self, place: &Place, center: Vec3, focus: Focus) -> Orbit {
+        Orbit {
+            center,
+            radius: place.distance * focus.radius,
+            azimuth: place.azimuth,
+            elevation: place.elevation,
+            up: self.up,
+        }
+    }
+
     /// The frame that takes all samples of a picture of `width` times `height` pixels in one pass. The picture may be
     /// larger: see [`Frame::size`].
     pub fn frame(&self, scene: &Scene, width: u32, height: u32) -> Frame {
@@ -162,20 +178,18 @@ impl View {
             .stereo
             .map_or([width, height], |stereo| stereo.eye_size([width, height]));
         let focus = scene.focus;
-        let orbit = |place: &Place, center: Vec3| Orbit {
-            center,
-            radius: place.distance * focus.radius,
-            azimuth: place.azimuth,
-            elevation: place.elevation,
-            up: self.up,
-        };
         let target = focus.center + self.target * focus.radius;
-        let mut camera = Camera::on_orbit(&orbit(&self.camera, target), self.field_of_view, width, height);
+        let mut camera = Camera::on_orbit(
+            &self.orbit(&self.camera, target, focus),
+            self.field_of_view,
+            width,
+            height,
+        );
         if let Some(stereo) = self.stereo {
             stereo.part_eyes(&mut camera);
         }
         let is_flat = self.shading == Shading::Flat;
-        let light = placed(&scene.light, &orbit(&self.light, focus.center));
+        let light = self.lit(&scene.light, focus);
         // An adaptive picture begins with one sample a pixel.
         let samples = if self.adaptive { Samples::One } else { self.samples };
         Frame {

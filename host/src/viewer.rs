@@ -4,6 +4,7 @@
 //! script makes events too. The `Session` is the state that inputs change. What follows is done by threads: one
 //! renders, one loads a scene, one opens the GPU or swaps its kernel, two notice that a file was saved; they answer with a `Notice`. The window itself only draws.
 
+mod adjustment;
 mod application;
 mod caption;
 mod compose;
@@ -18,6 +19,7 @@ mod grammar;
 mod handler;
 mod input;
 mod kernel_file;
+mod layers;
 mod load_queue;
 mod loader;
 mod loads;
@@ -29,11 +31,14 @@ mod opener;
 mod oracle;
 pub(crate) mod overlay;
 mod pace;
+mod panel;
 mod passes;
+mod pick;
 mod pictures;
 mod play;
 mod player;
 mod presenter;
+mod remembered;
 mod renderer;
 mod report;
 mod saving;
@@ -43,6 +48,7 @@ mod script;
 mod seeing;
 mod session;
 mod showing;
+mod side;
 mod sight;
 mod software_screen;
 mod state;
@@ -98,6 +104,10 @@ pub struct ViewerOptions {
     pub target: Duration,
     /// A script to play; the window closes at its end.
     pub script: Option<PathBuf>,
+    /// Whether the panel is open at first; as it was left, else closed.
+    pub panel: Option<bool>,
+    /// The file in which the panel's state is remembered, if it is.
+    pub state: Option<PathBuf>,
     /// The folder for pictures that are saved by key.
     pub pictures: PathBuf,
 }

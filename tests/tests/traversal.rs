@@ -12,6 +12,7 @@ use oktant_shared::triangle_test::Watertight;
 use oktant_tests::ray_classes::RayClass;
 use oktant_tests::subject::Subject;
 use oktant_tests::tally::Tally;
+use std::sync::Arc;
 
 /// Rays of each class on each mesh.
 const RAYS: usize = 100_000;
@@ -73,7 +74,7 @@ fn the_suite_notices_a_lost_reference() {
         [0, 0]
     );
     // All leaves forget their first reference.
-    for words in &mut scene.nodes {
+    for words in Arc::make_mut(&mut scene.nodes) {
         if words.y != INNER && words.y > 0 {
             words.x += 1;
             words.y -= 1;

@@ -1,8 +1,9 @@
 //! `oktant view`, and `oktant` alone.
 
 use super::Failure;
-use super::arguments::{FileArguments, ViewArguments};
+use super::arguments::{FileArguments, SwitchArgument, ViewArguments};
 use super::render::{Order, render};
+use directories::ProjectDirs;
 use oktant::viewer::{Look, ViewerError, ViewerOptions};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -23,6 +24,8 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
         kernel: arguments.engine.kernel_file()?.map(PathBuf::from),
         target: Duration::from_millis(u64::from(arguments.target_ms)),
         script: arguments.script.clone(),
+        panel: arguments.panel.map(|panel| panel == SwitchArgument::On),
+        state: state_file(arguments.script.is_some()),
         pictures: PathBuf::from("."),
     };
     match oktant::viewer::run(options) {
@@ -42,5 +45,19 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
             })
         }
         Err(error) => Err(error.into()),
+    }
+}
+
+/// Where the viewer remembers its state: what the environment names, else the platform's place. Scripts remember nothing
+/// unless they are told to.
+fn state_file(is_script: bool) -> Option<PathBuf> {
+    match std::env::var_os("OKTANT_STATE") {
+        Some(path) => Some(PathBuf::from(path)).filter(|path| !path.as_os_str().is_empty()),
+        None if is_script => None,
+        None => {
+            let folders = ProjectDirs::from("", "", "oktant")?;
+            let folder = folders.state_dir().unwrap_or_else(|| folders.data_local_dir());
+            Some(folder.join("viewer.toml"))
+        }
     }
 }

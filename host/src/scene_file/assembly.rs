@@ -10,6 +10,7 @@ use crate::asset::Asset;
 use crate::mesh::Mesh;
 use crate::mesh_source::MeshSource;
 use crate::model::{AMBIENT, Model, needs_coordinates};
+use crate::names::Names;
 use crate::preferences::Preferences;
 use crate::progress::Progress;
 use crate::source::Setting;
@@ -113,7 +114,12 @@ pub fn assemble(
     view.stereo = description.stereo.as_ref().map(|stereo| stereo.build());
     description.render.check_halves(&view)?;
     let lights = super::light::build_all(description.light.as_deref(), &mut view, focus.unwrap_or(whole))?;
-    let materials = assembly.palette.into_used();
+    let (names, materials): (Vec<_>, Vec<_>) = assembly.palette.into_used().into_iter().unzip();
+    let image = description.environment.image.as_deref();
+    let names = Names {
+        materials: names,
+        environment: image.map(|path| path.display().to_string()),
+    };
     let mut files = assembly.files;
     files.extend(assembly.textures.files);
     files.sort();
@@ -136,6 +142,7 @@ pub fn assemble(
             focus,
         },
         view,
+        names,
         size: description.render.size(),
         files,
     })

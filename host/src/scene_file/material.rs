@@ -188,7 +188,7 @@ impl Palette {
     }
 
     /// The used materials by index.
-    pub fn into_used(self) -> Vec<material::Material> {
-        self.used.into_iter().map(|(_, material)| material).collect()
+    pub fn into_used(self) -> Vec<(Option<String>, material::Material)> {
+        self.used
     }
 }

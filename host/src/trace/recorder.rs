@@ -123,7 +123,7 @@ fn with_box<B: BoxTest>(scene: &Scene, view: &View<'_>, ray: &Ray) -> Hit {
 
 /// The nodes with numbers in the places of the leaves' beginnings, and those; none where slots tell the leaves apart.
 fn numbered(scene: &Scene) -> (Vec<UVec4>, Vec<u32>) {
-    let mut nodes = scene.nodes.clone();
+    let mut nodes = scene.nodes.to_vec();
     let mut firsts = Vec::new();
     match scene.parts.traversal {
         TraversalKind::Octants | TraversalKind::Compact => {

@@ -10,7 +10,9 @@ use super::notice::{Image, Mailbox, Notice};
 use super::opener::open_gpu;
 use super::oracle::Comparison;
 use super::overlay::{Line, Overlay};
+use super::panel::{Inventory, Panel};
 use super::player::Player;
+use super::remembered::StateFile;
 use super::renderer::Renderer;
 use super::schedule::Schedule;
 use super::screen::Screen;
@@ -26,9 +28,11 @@ use super::{ViewerError, ViewerOptions};
 use crate::backend::BackendChoice;
 use crate::backend::gpu::GpuOptions;
 use crate::model::Focus;
+use crate::names::Names;
 use crate::preferences::Preferences;
 use crate::scene::Scene;
 use crate::source::Source;
+use crate::structure::StructureOptions;
 use crate::view::View;
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -44,6 +48,8 @@ pub struct Application {
     /// When the viewer was started.
     pub(super) start: Instant,
     pub(super) options: ViewerOptions,
+    /// What is remembered from the last time.
+    pub(super) state: StateFile,
     pub(super) mailbox: Mailbox,
     pub(super) session: Session,
     pub(super) translation: Translation,
@@ -67,6 +73,15 @@ pub struct Application {
     /// The work behind it.
     pub(super) sight: Sight,
     pub(super) scene: Option<Arc<Scene>>,
+    /// What its structure was built with, and what the newest load builds one with.
+    pub(super) built: StructureOptions,
+    pub(super) building: StructureOptions,
+    /// What it consists of, once that is counted.
+    pub(super) inventory: Option<Inventory>,
+    /// What its file calls its parts.
+    pub(super) names: Names,
+    /// Number of the load that it came from.
+    pub(super) shown_load: u64,
     /// What the scene was made from.
     pub(super) source: Source,
     /// What it says of what is looked at.
@@ -91,6 +106,8 @@ pub struct Application {
     /// Which part of the picture is shown, and when the other one has its turn.
     pub(super) part: Part,
     pub(super) next_turn: Option<Instant>,
+    /// At the right side, once there is a window.
+    pub(super) panel: Option<Panel>,
     pub(super) panels: Vec<Vec<Line>>,
     pub(super) overlay: Overlay,
     pub(super) title: String,
@@ -115,8 +132,10 @@ impl Application {
         mailbox: Mailbox,
         player: Option<Player>,
     ) -> Self {
+        let (state, complaint) = StateFile::read(options.state.clone());
         let mut application = Application {
             start,
+            state,
             session: Session::new(
                 options.look.applied(View::default()),
                 options.size.unwrap_or(Preferences::of_process().size),
@@ -135,6 +154,11 @@ impl Application {
             comparison: Comparison::default(),
             sight: Sight::default(),
             scene: None,
+            built: options.structure,
+            building: options.structure,
+            inventory: None,
+            names: Names::default(),
+            shown_load: 0,
             source: options.source.clone(),
             focus: None,
             watcher: Watcher::start(mailbox.clone(), || Notice::Changed),
@@ -150,6 +174,7 @@ impl Application {
             samples: 0,
             part: Part::Whole,
             next_turn: None,
+            panel: None,
             panels: Vec::new(),
             overlay: Overlay::default(),
             title: String::new(),
@@ -163,6 +188,12 @@ impl Application {
             options,
         };
         application.session.seeing = Seeing::new(application.options.structure.parts.traversal);
+        let remembered = application.state.remembered.panel;
+        application.session.panel = application.options.panel.unwrap_or(remembered);
+        if let Some(sentence) = complaint {
+            application.tell(sentence, true);
+        }
+        application.session.structure = application.options.structure;
         application.load(application.options.source.clone());
         match application.options.backend {
             BackendChoice::Cpu => {}
@@ -222,8 +253,15 @@ impl Application {
         }
     }
 
-    /// Takes an input.
+    /// Takes an input; the window says why where it cannot be.
     pub(super) fn take_input(&mut self, input: Input, now: Instant) {
+        if let Err(reason) = self.ask(input, now) {
+            self.tell(sentence(&reason), true);
+        }
+    }
+
+    /// Takes an input, or says why it cannot be.
+    pub(super) fn ask(&mut self, input: Input, now: Instant) -> Result<(), String> {
         match self.session.apply(input) {
             Effect::Nothing => {}
             Effect::Redraw => self.redraw(),
@@ -232,11 +270,28 @@ impl Application {
                 self.redraw();
             }
             Effect::Render => self.schedule.change(now),
+            Effect::Restage => self.restage(now),
+            Effect::Pick(at) => self.pick(at),
+            Effect::Rebuild => self.reload(),
+            Effect::Backend(choice) => self.want_backend(choice, now),
             Effect::Save(path) => self.save(path),
             Effect::Open(path) => self.load(Source::from_path(path)),
             Effect::SwitchBackend => self.switch_backend(now),
+            Effect::Refused(reason) => return Err(reason),
             Effect::Quit => self.quits = true,
         }
+        Ok(())
+    }
+
+    /// Gives what is shown the staging of the session; its structure stays.
+    pub(super) fn restage(&mut self, now: Instant) {
+        let Some(scene) = &self.scene else { return };
+        let staged = scene.staged(&self.session.staging);
+        if staged.is_plain() != scene.is_plain() {
+            self.paces = [Paces::guessed(staged.is_plain()); 2];
+        }
+        self.scene = Some(Arc::new(staged));
+        self.schedule.change(now);
     }
 
     fn save(&mut self, path: Option<PathBuf>) {
@@ -251,20 +306,34 @@ impl Application {
     }
 
     fn switch_backend(&mut self, now: Instant) {
-        if self.wants_gpu {
-            self.wants_gpu = false;
-            self.schedule.change(now);
-            return;
-        }
+        // Whoever presses the key takes any GPU.
+        let choice = if self.wants_gpu {
+            BackendChoice::Cpu
+        } else {
+            BackendChoice::Gpu
+        };
+        self.want_backend(choice, now);
+    }
+
+    fn want_backend(&mut self, choice: BackendChoice, now: Instant) {
+        let wanted = choice != BackendChoice::Cpu;
         match self.gpu {
+            _ if wanted == self.wants_gpu => return,
             GpuState::Open(_) => {
-                self.wants_gpu = true;
+                self.wants_gpu = wanted;
                 self.schedule.change(now);
             }
-            GpuState::Opening { .. } => self.wants_gpu = true,
-            // Whoever presses the key takes any GPU.
-            GpuState::Closed => self.open_gpu(true, false),
+            GpuState::Opening { .. } => self.wants_gpu = wanted,
+            GpuState::Closed if wanted => self.open_gpu(choice == BackendChoice::Gpu, false),
+            GpuState::Closed => {}
         }
         self.redraw();
     }
+}
+
+/// A reason as a sentence.
+fn sentence(reason: &str) -> String {
+    let mut characters = reason.chars();
+    let first = characters.next().map(char::to_uppercase);
+    first.into_iter().flatten().chain(characters).chain(['.']).collect()
 }

@@ -6,10 +6,11 @@ use crate::tone::{self, Curve};
 use clap::ValueEnum;
 
 /// What every key and every drag does.
-const HELP: [(&str, &str); 24] = [
+const HELP: [(&str, &str); 26] = [
     ("left drag", "turn the camera"),
     ("right drag", "turn the light"),
     ("middle drag, Shift+drag", "pan"),
+    ("Ctrl+Shift+click", "the material that is there, in the panel"),
     ("wheel", "come closer, go away"),
     ("double click, F", "fit what is looked at into the window"),
     ("R", "back to the first view"),
@@ -22,11 +23,12 @@ const HELP: [(&str, &str); 24] = [
     ("] [", "eyes farther apart, nearer"),
     ("B", "CPU or GPU"),
     ("I", "figures on or off"),
+    ("Tab", "panel on or off"),
     ("O", "compare with the oracle"),
     ("V, Shift+V", "what pixels tell: next, previous"),
     ("C", "cells: leaves, a level, under the pointer"),
     ("> <", "level of the cells"),
-    ("Ctrl + left click", "pin a ray"),
+    ("Ctrl+click", "pin a ray"),
     ("H, ?", "this list"),
     ("Ctrl+S", "save the picture"),
     ("drop a scene or mesh file", "look at it"),
@@ -108,7 +110,11 @@ pub fn figures(caption: &Caption) -> Vec<Line> {
         }),
     ];
     let mut lines = vec![
-        plain(joined(&[caption.backend.clone(), "H: keys".into()])),
+        plain(joined(&[
+            caption.backend.clone(),
+            "H: keys".into(),
+            "Tab: panel".into(),
+        ])),
         strong(joined(&speed)),
         plain(joined(&mesh)),
     ];

@@ -2,6 +2,7 @@
 
 use super::application::Application;
 use super::caption::{self, Caption};
+use super::layers::Layers;
 use super::notice::Image;
 use super::oracle::veiled;
 use super::overlay::{Line, Overlay};
@@ -26,6 +27,7 @@ impl Application {
             return;
         };
         self.update_overlay(now);
+        self.run_panel(&window, now);
         let title = self.title();
         if title != self.title {
             window.set_title(&title);
@@ -55,13 +57,14 @@ impl Application {
         if !screen.shows(&image) {
             return;
         }
-        let drawn = screen.draw(
-            &image,
-            veiled.as_ref().unwrap_or(&self.overlay),
-            &showing,
-            self.session.size,
-        );
+        let layers = Layers {
+            overlay: veiled.as_ref().unwrap_or(&self.overlay),
+            panel: self.panel.as_ref().and_then(|panel| panel.painting(&self.session)),
+            showing,
+        };
+        let drawn = screen.draw(&image, &layers, self.session.size);
         if drawn == Ok(true) {
+            self.figures.drawn += 1;
             self.plan_turn(now);
         }
         match drawn {

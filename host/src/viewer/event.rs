@@ -69,6 +69,8 @@ pub enum Key {
     Character(char),
     /// Esc.
     Escape,
+    /// Tab.
+    Tab,
 }
 
 /// Pixels that a touchpad scrolls for one notch of a wheel.
@@ -124,6 +126,7 @@ impl Event {
 fn key(logical: &WinitKey, physical: PhysicalKey) -> Option<Key> {
     match logical {
         WinitKey::Named(NamedKey::Escape) => return Some(Key::Escape),
+        WinitKey::Named(NamedKey::Tab) => return Some(Key::Tab),
         WinitKey::Character(text) if text.is_ascii() => {
             let mut characters = text.chars();
             if let (Some(character), None) = (characters.next(), characters.next()) {
@@ -241,6 +244,7 @@ mod tests {
             key(&WinitKey::Named(NamedKey::Escape), code(KeyCode::Escape)),
             Some(Key::Escape)
         );
-        assert_eq!(key(&WinitKey::Named(NamedKey::Tab), code(KeyCode::Tab)), None);
+        assert_eq!(key(&WinitKey::Named(NamedKey::Tab), code(KeyCode::Tab)), Some(Key::Tab));
+        assert_eq!(key(&WinitKey::Named(NamedKey::Home), code(KeyCode::Home)), None);
     }
 }

@@ -6,17 +6,35 @@ use std::time::{Duration, Instant};
 /// Frames are counted over this time.
 const WINDOW: Duration = Duration::from_secs(1);
 
+/// So many of the last frames are remembered.
+pub const HISTORY: usize = 200;
+
+/// What a frame took, milliseconds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameTime {
+    /// Since the frame before; none after a rest.
+    pub frame: Option<f64>,
+    /// The last pass before it.
+    pub kernel: Option<f64>,
+}
+
 /// Times of frames and of the kernel.
 #[derive(Clone, Debug, Default)]
 pub struct Figures {
     /// New pictures shown since the window opened.
     pub frames: u64,
+    /// How often the window was drawn, with a new picture or without.
+    pub drawn: u64,
     /// Time from the start of the program's run to the first picture of the mesh.
     pub first_picture: Option<Duration>,
     /// Milliseconds of the last pass: by the GPU's clock, or the wall's for the CPU.
     pub kernel: Option<f64>,
+    /// Closest-hit rays and shadow rays for each camera ray, in the last finished picture.
+    pub kinds: Option<[f64; 2]>,
     /// Samples of each pixel that have been taken.
     pub samples: u32,
+    /// The last [`HISTORY`] frames, the newest last.
+    pub history: VecDeque<FrameTime>,
     rays: u64,
     recent: VecDeque<Instant>,
 }
@@ -26,6 +44,14 @@ impl Figures {
     pub fn frame(&mut self, now: Instant) {
         self.frames += 1;
         self.forget(now);
+        let since = |last: &Instant| now.saturating_duration_since(*last).as_secs_f64() * 1e3;
+        if self.history.len() == HISTORY {
+            self.history.pop_front();
+        }
+        self.history.push_back(FrameTime {
+            frame: self.recent.back().map(since),
+            kernel: self.kernel,
+        });
         self.recent.push_back(now);
     }
 
@@ -50,6 +76,12 @@ impl Figures {
     pub fn megarays_a_second(&self) -> Option<f64> {
         let milliseconds = self.kernel.filter(|milliseconds| *milliseconds > 0.0)?;
         Some(self.rays as f64 / milliseconds / 1e3)
+    }
+
+    /// Millions of closest-hit rays and of shadow rays a second in the last pass, if it was like the last finished picture.
+    pub fn megarays_by_kind(&self) -> Option<[f64; 2]> {
+        let camera = self.megarays_a_second()?;
+        self.kinds.map(|kinds| kinds.map(|of_one| of_one * camera))
     }
 
     /// When the frames a second change if no other frame comes.
@@ -92,10 +124,30 @@ mod tests {
     }
 
     #[test]
+    fn the_last_frames_are_remembered() {
+        let start = Instant::now();
+        let at = |milliseconds| start + Duration::from_millis(milliseconds);
+        let mut figures = Figures::default();
+        figures.frame(at(0));
+        figures.pass(1, 100, 3.0);
+        figures.frame(at(20));
+        figures.frame(at(5000));
+        let times: Vec<_> = figures.history.iter().map(|time| (time.frame, time.kernel)).collect();
+        assert_eq!(times, [(None, None), (Some(20.0), Some(3.0)), (None, Some(3.0))]);
+        for i in 0..2 * HISTORY as u64 {
+            figures.frame(at(6000 + i));
+        }
+        assert_eq!(figures.history.len(), HISTORY);
+    }
+
+    #[test]
     fn rays_a_second() {
         let mut figures = Figures::default();
         assert_eq!(figures.megarays_a_second(), None);
         figures.pass(1, 1_000_000, 4.0);
         assert_eq!(figures.megarays_a_second(), Some(250.0));
+        assert_eq!(figures.megarays_by_kind(), None);
+        figures.kinds = Some([1.5, 2.0]);
+        assert_eq!(figures.megarays_by_kind(), Some([375.0, 500.0]));
     }
 }

@@ -73,17 +73,20 @@ impl GpuMemory {
 
     /// The scene in the GPU's memory.
     fn upload(&mut self, gpu: &Arc<Gpu>, scene: &Arc<Scene>) -> Result<&mut Uploaded, BackendError> {
-        let there = self.uploaded.take().filter(|uploaded| {
-            std::ptr::eq(uploaded.gpu.as_ptr(), Arc::as_ptr(gpu))
-                && std::ptr::eq(uploaded.scene.as_ptr(), Arc::as_ptr(scene))
-        });
+        let there = self
+            .uploaded
+            .take()
+            .filter(|uploaded| std::ptr::eq(uploaded.gpu.as_ptr(), Arc::as_ptr(gpu)) && uploaded.there.shares(scene));
         // An old one is gone by now: both may not fit.
         let uploaded = match there {
-            Some(uploaded) => uploaded,
-            None => Uploaded {
+            Some(uploaded) if std::ptr::eq(uploaded.scene.as_ptr(), Arc::as_ptr(scene)) => uploaded,
+            there => Uploaded {
                 gpu: Arc::downgrade(gpu),
                 scene: Arc::downgrade(scene),
-                there: gpu.upload(scene)?,
+                there: match there {
+                    Some(uploaded) => gpu.restage(scene, uploaded.there)?,
+                    None => gpu.upload(scene)?,
+                },
                 paces: DepthPaces::guessed(scene.is_plain()),
             },
         };

@@ -1,10 +1,10 @@
 //! A window that the GPU draws.
 
+use super::layers::Layers;
 use super::notice::Image;
-use super::overlay::Overlay;
+use super::panel::GpuPainter;
 use super::presenter::Presenter;
 use super::screen::ScreenError;
-use super::showing::Showing;
 use crate::backend::gpu::{Gpu, GpuPicture};
 use crate::picture::Picture;
 use std::sync::{Arc, Weak};
@@ -19,6 +19,8 @@ pub struct GpuScreen {
     /// Whether the surface must be configured before it is drawn on.
     is_stale: bool,
     presenter: Presenter,
+    /// Draws the panel, once there is one.
+    painter: Option<GpuPainter>,
     uploaded: Option<(Weak<Picture>, GpuPicture)>,
     gpu: Arc<Gpu>,
     window: Arc<Window>,
@@ -59,24 +61,19 @@ impl GpuScreen {
             configuration,
             is_stale: true,
             presenter,
+            painter: None,
             uploaded: None,
             gpu,
             window,
         })
     }
 
-    /// Shows a picture with the overlay over it in a window of that size; false where it must be tried again, because
+    /// Shows a picture and what lies over it in a window of that size; false where it must be tried again, because
     /// the surface was lost or nobody would see it.
     ///
     /// # Errors
     /// [`ScreenError::Backend`] where the device fails, [`ScreenError::Surface`] where the surface does.
-    pub fn draw(
-        &mut self,
-        image: &Image,
-        overlay: &Overlay,
-        showing: &Showing,
-        size: [u32; 2],
-    ) -> Result<bool, ScreenError> {
+    pub fn draw(&mut self, image: &Image, layers: &Layers<'_>, size: [u32; 2]) -> Result<bool, ScreenError> {
         if size.contains(&0) {
             return Ok(true);
         }
@@ -107,8 +104,13 @@ impl GpuScreen {
                 format,
                 ..Default::default()
             });
+            let mut painter = self.painter.take();
+            if layers.panel.is_some() && painter.is_none() {
+                painter = Some(GpuPainter::new(&self.gpu, format.unwrap_or(self.configuration.format)));
+            }
             self.presenter
-                .draw(&self.gpu, &view, size, self.picture(image), overlay, showing);
+                .draw(&self.gpu, (&view, size), self.picture(image), layers, painter.as_mut());
+            self.painter = painter;
             self.window.pre_present_notify();
             self.gpu.queue.present(texture);
             self.is_stale = is_suboptimal;
@@ -123,13 +125,7 @@ impl GpuScreen {
     ///
     /// # Errors
     /// [`ScreenError::Backend`] where the device fails.
-    pub fn screenshot(
-        &mut self,
-        image: &Image,
-        overlay: &Overlay,
-        showing: &Showing,
-        size: [u32; 2],
-    ) -> Result<Vec<u8>, ScreenError> {
+    pub fn screenshot(&mut self, image: &Image, layers: &Layers<'_>, size: [u32; 2]) -> Result<Vec<u8>, ScreenError> {
         self.upload(image)?;
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
         let texture = self.gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -148,7 +144,8 @@ impl GpuScreen {
         });
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         let presenter = Presenter::new(&self.gpu, format);
-        presenter.draw(&self.gpu, &view, size, self.picture(image), overlay, showing);
+        let mut painter = layers.panel.map(|_| GpuPainter::new(&self.gpu, format));
+        presenter.draw(&self.gpu, (&view, size), self.picture(image), layers, painter.as_mut());
         Ok(self.gpu.read_rgb8(&texture)?)
     }
 

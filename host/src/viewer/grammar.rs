@@ -1,13 +1,17 @@
 //! The words of a script's lines. docs/viewer.md describes them.
 
+use super::adjustment::Adjustment;
 use super::event::{Button, Key};
+use super::input::Input;
 use super::step::{Expectation, Step};
 use crate::insight::Aspect;
 use crate::nearest::nearest;
 use std::path::PathBuf;
 
-const STEPS: [&str; 19] = [
+const STEPS: [&str; 24] = [
     "drag",
+    "click",
+    "pick",
     "double-click",
     "wheel",
     "key",
@@ -22,6 +26,9 @@ const STEPS: [&str; 19] = [
     "move",
     "pin",
     "unpin",
+    "set",
+    "add",
+    "remove",
     "print",
     "wait",
     "expect",
@@ -31,13 +38,13 @@ const DRAGS: [&str; 4] = ["left", "right", "middle", "shift+left"];
 const WAITS: [&str; 5] = ["settled", "frames", "samples", "reloaded", "milliseconds"];
 const EXPECTATIONS: [&str; 4] = ["first-picture", "backend", "triangles", "message"];
 /// The keys that mean something.
-pub const KEYS: [&str; 25] = [
+pub const KEYS: [&str; 26] = [
     "F", "R", "P", "M", "T", "+", "=", "-", ".", ",", "3", "[", "]", "B", "H", "?", "I", "O", "V", "C", ">", "<",
-    "Ctrl+S", "Esc", "Escape",
+    "Ctrl+S", "Tab", "Esc", "Escape",
 ];
 
 /// The first word of a text, and the rest of it.
-fn split(text: &str) -> (&str, &str) {
+pub fn split(text: &str) -> (&str, &str) {
     let (word, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
     (word, rest.trim())
 }
@@ -47,6 +54,8 @@ pub fn step(line: &str) -> Result<Step, String> {
     let (word, rest) = split(line);
     Ok(match word {
         "drag" => drag(rest)?,
+        "click" => Step::Click(place(word, rest)?),
+        "pick" => Step::Ask(Input::Pick(place(word, rest)?)),
         "wheel" => match numbers::<f32>(rest)?.as_slice() {
             [notches] if notches.is_finite() => Step::Wheel(*notches),
             _ => return Err("give the notches of the wheel, for example: wheel 2".into()),
@@ -67,6 +76,15 @@ pub fn step(line: &str) -> Result<Step, String> {
         "show" => Step::Show(shown(rest)?),
         "move" => Step::Move(place(word, rest)?),
         "pin" => Step::Pin(place(word, rest)?),
+        "set" => Step::Ask(Input::Adjust(Adjustment::parse(rest)?)),
+        "add" => match rest {
+            "light" => Step::Ask(Input::AddLight),
+            _ => return Err(unknown(rest, "thing to add", &["light"])),
+        },
+        "remove" => match split(rest) {
+            ("light", number) => Step::Ask(Input::RemoveLight(count("remove light", number)? as usize)),
+            (what, _) => return Err(unknown(what, "thing to remove", &["light"])),
+        },
         "wait" => wait(rest)?,
         "expect" => Step::Expect(expectation(rest)?),
         "double-click" => alone(word, rest, Step::DoubleClick)?,
@@ -77,6 +95,15 @@ pub fn step(line: &str) -> Result<Step, String> {
         "quit" => alone(word, rest, Step::Quit)?,
         _ => return Err(unknown(word, "step", &STEPS)),
     })
+}
+
+fn place(step: &str, rest: &str) -> Result<[f64; 2], String> {
+    match numbers::<f64>(rest)?.as_slice() {
+        [x @ 0.0..=32_768.0, y @ 0.0..=32_768.0] => Ok([*x, *y]),
+        _ => Err(format!(
+            "give a place in pixels from the upper left corner, for example: {step} 620 40"
+        )),
+    }
 }
 
 fn drag(rest: &str) -> Result<Step, String> {
@@ -126,6 +153,7 @@ fn key(name: &str) -> Result<Step, String> {
     let lower = name.to_lowercase();
     let (key, control) = match lower.as_str() {
         "esc" | "escape" => (Key::Escape, false),
+        "tab" => (Key::Tab, false),
         "ctrl+s" => (Key::Character('s'), true),
         _ => {
             let mut characters = lower.chars();
@@ -201,7 +229,8 @@ fn numbers<T: std::str::FromStr>(text: &str) -> Result<Vec<T>, String> {
         .collect()
 }
 
-fn unknown(word: &str, kind: &str, words: &[&str]) -> String {
+/// What is wrong with a word that is none of some, and what to give.
+pub fn unknown(word: &str, kind: &str, words: &[&str]) -> String {
     let valid = words.join(", ");
     if word.is_empty() {
         format!("give one of {valid}")

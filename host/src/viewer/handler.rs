@@ -4,6 +4,7 @@ use super::ViewerError;
 use super::application::Application;
 use super::event::Event;
 use super::notice::Notice;
+use super::panel::Panel;
 use super::screen::Screen;
 use super::state::GpuState;
 use std::sync::Arc;
@@ -44,6 +45,7 @@ impl Application {
             self.figures.expiry(),
             self.retry,
             self.next_turn,
+            self.panel_wake(now),
         ]
         .into_iter()
         .flatten()
@@ -83,6 +85,7 @@ impl ApplicationHandler<Notice> for Application {
             size: [size.width, size.height],
             scale: window.scale_factor(),
         };
+        self.panel = Some(Panel::new(&window, self.state.remembered.layout.clone()));
         self.window = Some(window);
         self.take_event(&resized, Instant::now());
         self.redraw();
@@ -98,10 +101,12 @@ impl ApplicationHandler<Notice> for Application {
             self.draw(now);
             return;
         }
-        let Some(event) = Event::from_winit(&event, self.session.size, self.session.scale) else {
+        let meaning = Event::from_winit(&event, self.session.size, self.session.scale);
+        // A script is not disturbed by the hand that happens to hold the mouse.
+        let is_for_all = self.player.is_some() || !self.panel_takes(&event, meaning.as_ref());
+        let Some(event) = meaning.filter(|_| is_for_all) else {
             return;
         };
-        // A script is not disturbed by the hand that happens to hold the mouse.
         let is_window = matches!(event, Event::Resized { .. } | Event::CloseRequested);
         if self.player.is_none() || is_window {
             self.take_event(&event, now);
@@ -125,9 +130,11 @@ impl ApplicationHandler<Notice> for Application {
         self.comparison.stop();
         self.sight.stop();
         self.abandon_saves();
+        self.remember();
         // The screen goes before the window, and both before the event loop.
         self.image = None;
         self.screen = None;
+        self.panel = None;
         self.window = None;
     }
 }

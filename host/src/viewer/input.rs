@@ -1,5 +1,6 @@
 //! What can be asked of the viewer.
 
+use super::adjustment::Adjustment;
 use super::seeing::See;
 use std::path::PathBuf;
 
@@ -47,12 +48,22 @@ pub enum Input {
     NextStereo,
     /// The eyes farther apart by so many steps; negative ones bring them together.
     PartEyes(f32),
+    /// Give something a value.
+    Adjust(Adjustment),
+    /// Look closer at the material of what is there, physical pixels from the window's upper left corner.
+    Pick([f64; 2]),
+    /// Another light.
+    AddLight,
+    /// One light less, by its number.
+    RemoveLight(usize),
     /// CPU or GPU.
     SwitchBackend,
     /// The list of keys.
     ToggleHelp,
     /// The figures.
     ToggleFigures,
+    /// The panel.
+    TogglePanel,
     /// Whether the picture is compared with the oracle's.
     ToggleOracle,
     /// Save the picture: into a file, or under the next free name.

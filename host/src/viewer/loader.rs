@@ -3,9 +3,11 @@
 use super::accident::caught;
 use super::mentioned::mentioned;
 use super::notice::{LoadError, Mailbox, Notice};
+use super::panel::Inventory;
 use super::throttle::Throttle;
 use super::watcher::Stamps;
 use crate::model::Focus;
+use crate::names::Names;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::source::Source;
@@ -27,6 +29,8 @@ pub struct Arrival {
     pub focus: Option<Focus>,
     /// What the mesh was moved by: see [`crate::mesh::Mesh::shift`].
     pub shift: DVec3,
+    /// What its file calls its parts.
+    pub names: Names,
     /// Size of the picture in pixels, where the source says so.
     pub size: Option<[u32; 2]>,
     /// The files that were read.
@@ -64,7 +68,13 @@ pub fn load(load: u64, source: Source, structure: StructureOptions, mailbox: &Ma
             error,
             stamps: Stamps::new(mentioned(&source), began),
         });
+        let scene = result.as_ref().ok().map(|arrival| arrival.scene.clone());
         mailbox.send(Notice::Loaded { load, result });
+        // It is shown already while it is counted.
+        if let Some(scene) = scene {
+            let inventory = Inventory::of(&scene);
+            mailbox.send(Notice::Counted { load, inventory });
+        }
     });
 }
 
@@ -86,6 +96,7 @@ fn arrive(
         view: setting.view,
         focus,
         shift,
+        names: setting.names,
         size: setting.size,
         stamps,
     }))

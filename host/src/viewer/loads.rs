@@ -4,6 +4,7 @@ use super::application::Application;
 use super::draft::Paces;
 use super::loader::{self, Arrival, Refusal};
 use super::state::Loading;
+use crate::scene::Staging;
 use crate::source::Source;
 use std::time::Instant;
 use winit::dpi::PhysicalSize;
@@ -23,7 +24,8 @@ impl Application {
 
     fn begin_load(&mut self, load: Option<u64>) {
         if let (Some(load), Some(loading)) = (load, self.loads.loading()) {
-            loader::load(load, loading.source.clone(), self.options.structure, &self.mailbox);
+            self.building = self.session.structure;
+            loader::load(load, loading.source.clone(), self.building, &self.mailbox);
             self.redraw();
         }
     }
@@ -35,9 +37,14 @@ impl Application {
         };
         self.reloads += u64::from(loading.is_reload);
         match result {
-            Ok(arrival) => self.take_arrival(loading, *arrival, now),
+            Ok(arrival) => {
+                self.shown_load = load;
+                self.take_arrival(loading, *arrival, now);
+            }
             Err(refusal) if self.scene.is_none() => self.fail(refusal.error),
             Err(refusal) => {
+                // What is shown still has its old structure.
+                self.session.structure = self.built;
                 self.tell(refusal.error.to_string(), true);
                 if let Some(message) = &mut self.message {
                     message.is_about_load = true;
@@ -65,7 +72,13 @@ impl Application {
             self.fit_window(size, now);
         }
         self.paces = [Paces::guessed(arrival.scene.is_plain()); 2];
+        let staging = Staging::of(&arrival.scene);
+        self.session.restage(staging.clone(), loading.is_reload);
+        let is_staged = self.session.staging == staging;
+        self.names = arrival.names;
         self.scene = Some(arrival.scene);
+        self.built = self.building;
+        self.inventory = None;
         self.focus = arrival.focus;
         self.sight.shift = arrival.shift;
         if !loading.is_reload {
@@ -74,7 +87,11 @@ impl Application {
         self.source = loading.source;
         self.watcher.watch(arrival.stamps);
         self.message.take_if(|message| message.is_about_load);
-        self.schedule.change(now);
+        if is_staged {
+            self.schedule.change(now);
+        } else {
+            self.restage(now);
+        }
     }
 
     /// Gives the window's inside the size that the scene asks for.

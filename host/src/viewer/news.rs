@@ -18,6 +18,12 @@ impl Application {
                 }
             }
             Notice::Loaded { load, result } => self.take_load(load, result, now),
+            Notice::Counted { load, inventory } => {
+                if load == self.shown_load {
+                    self.inventory = Some(inventory);
+                    self.redraw();
+                }
+            }
             Notice::Changed => self.reload(),
             Notice::KernelChanged => self.reload_kernel(),
             Notice::KernelSwapped(result) => self.take_kernel(result, now),
@@ -51,6 +57,10 @@ impl Application {
                     self.paces[usize::from(on_gpu)].measured(draft.is_shallow, rays, milliseconds);
                     self.redraw();
                 }
+            }
+            Notice::RaysCounted { closest, shadow } => {
+                self.figures.kinds = Some([closest, shadow]);
+                self.redraw();
             }
             Notice::Finished(result) => {
                 if let Err(error @ RenderError::Accident(_)) = &result {

@@ -3,6 +3,7 @@
 use super::accident::Accident;
 use super::loader::{Arrival, Refusal};
 use super::oracle::Findings;
+use super::panel::Inventory;
 use super::sight::Told;
 use crate::backend::BackendError;
 use crate::backend::gpu::{Gpu, GpuPicture, Kernel};
@@ -33,6 +34,13 @@ pub enum Notice {
         /// What came of it.
         result: Result<Box<Arrival>, Refusal>,
     },
+    /// What a scene that is there consists of.
+    Counted {
+        /// Number of its load.
+        load: u64,
+        /// Figures.
+        inventory: Inventory,
+    },
     /// A file of what is shown was saved.
     Changed,
     /// The GPU is open, or cannot be.
@@ -51,6 +59,13 @@ pub enum Notice {
         rays: u64,
         /// Time of the pass.
         milliseconds: f64,
+    },
+    /// What rays a camera ray of the finished picture leads to, in the mean.
+    RaysCounted {
+        /// Rays that ask for their closest hit, itself among them.
+        closest: f64,
+        /// Rays that ask whether a light is seen.
+        shadow: f64,
     },
     /// What was to be shown is over, because it is done or was cancelled, or because the back end failed.
     Finished(Result<(), RenderError>),

@@ -15,7 +15,7 @@ use super::notice::{Image, Mailbox, Notice};
 use super::overlay::{Line, Tone};
 use super::task::Engine;
 use crate::oracle::whitted::Reference;
-use crate::scene::Scene;
+use crate::scene::{Scene, Staging};
 use crate::source::Source;
 use crate::view::View;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -121,7 +121,9 @@ fn reference_of(
     *known = None;
     let setting = subject.source.load(&crate::progress::silent);
     let setting = setting.map_err(|error| error.to_string())?;
-    let reference = Reference::new(Arc::new(setting.model)).map_err(|error| error.to_string())?;
+    let mut model = setting.model;
+    Staging::of(&subject.scene).put_on(&mut model);
+    let reference = Reference::new(Arc::new(model)).map_err(|error| error.to_string())?;
     let reference = Arc::new(reference);
     *known = Some((Arc::downgrade(&subject.scene), reference.clone()));
     Ok(is_wanted().then_some(reference))

@@ -4,6 +4,7 @@ use super::ViewerError;
 use super::application::Application;
 use super::event::Event;
 use super::input::Input;
+use super::layers::Layers;
 use super::notice::Image;
 use super::player::{self, Counts, PATIENCE};
 use super::seeing::See;
@@ -30,7 +31,7 @@ impl Application {
         while self.window.is_some() && !self.quits {
             if !player.is_idle() {
                 match player.event(now) {
-                    Some(event) => self.take_event(&event, now),
+                    Some(event) => self.take_played(&event, now),
                     None => break,
                 }
                 continue;
@@ -83,6 +84,7 @@ impl Application {
                 right,
                 down,
             } => player.queue(player::drag(self.session.size, *button, *shift, [*right, *down])),
+            Step::Click(at) => player.queue(player::click(*at)),
             Step::DoubleClick => player.queue(player::double_click()),
             Step::Wheel(notches) => player.queue([Event::Wheel(*notches)]),
             Step::Key { key, control } => player.queue(player::key(*key, *control)),
@@ -139,12 +141,13 @@ impl Application {
             Step::Move(at) => player.queue([Event::PointerMoved { x: at[0], y: at[1] }]),
             Step::Pin(at) => player.queue(player::pin(*at)),
             Step::Unpin => self.take_input(Input::See(See::Unpin), now),
+            Step::Ask(input) => self.ask(input.clone(), now)?,
             Step::Print => {
                 let text = self.report(now);
                 // Whoever closed standard output wants no more.
                 drop(std::io::stdout().write_all(text.as_bytes()));
             }
-            Step::WaitSettled => return wait_for(self.is_settled()),
+            Step::WaitSettled => return wait_for(self.is_settled(now)),
             Step::WaitFrames(count) => return wait_for(self.figures.frames - since.frames >= *count),
             Step::WaitSamples(count) => return wait_for(self.is_shown && u64::from(self.samples) >= *count),
             Step::WaitReloaded => return wait_for(self.reloads > since.reloads),
@@ -170,8 +173,13 @@ impl Application {
             return Err("the window shows no picture yet; wait for it with: wait settled".into());
         };
         let size = self.session.size;
+        let layers = Layers {
+            overlay: veiled.as_ref().unwrap_or(&self.overlay),
+            panel: self.panel.as_ref().and_then(|panel| panel.painting(&self.session)),
+            showing,
+        };
         let pixels = screen
-            .screenshot(image, veiled.as_ref().unwrap_or(&self.overlay), showing, size)
+            .screenshot(image, &layers, size)
             .map_err(|error| error.to_string())?;
         PictureFile::create(path)
             .and_then(|file| file.save_rgb8(&pixels, size))

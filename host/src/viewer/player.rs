@@ -124,6 +124,15 @@ pub fn drag(size: [u32; 2], button: Button, shift: bool, by: [f64; 2]) -> Vec<Ev
     events
 }
 
+/// The events of a click at a place, physical pixels.
+pub fn click([x, y]: [f64; 2]) -> Vec<Event> {
+    let button = |pressed| Event::Button {
+        button: Button::Left,
+        pressed,
+    };
+    vec![Event::PointerMoved { x, y }, button(true), button(false)]
+}
+
 /// The events of a double click.
 pub fn double_click() -> Vec<Event> {
     let button = |pressed| Event::Button {

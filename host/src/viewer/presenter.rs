@@ -1,7 +1,7 @@
 //! Drawing a picture from the GPU's memory onto a surface, without a trip over the CPU.
 
-use super::overlay::Overlay;
-use super::showing::Showing;
+use super::layers::Layers;
+use super::panel::GpuPainter;
 use crate::backend::gpu::{Gpu, READ, group_of_buffers};
 use wgpu::util::DeviceExt;
 
@@ -45,16 +45,17 @@ impl Presenter {
         Presenter { pipeline, layout }
     }
 
-    /// Draws a picture, given by its sums and size, and the overlay onto all of a texture, and submits that.
+    /// Draws a picture, given by its sums and size, and what lies over it onto all of a texture, given with its size, and
+    /// submits that. The panel is drawn where there is a painter for it.
     pub fn draw(
         &self,
         gpu: &Gpu,
-        target: &wgpu::TextureView,
-        target_size: [u32; 2],
+        (target, target_size): (&wgpu::TextureView, [u32; 2]),
         (sums, picture_size): (&wgpu::Buffer, [u32; 2]),
-        overlay: &Overlay,
-        showing: &Showing,
+        layers: &Layers<'_>,
+        painter: Option<&mut GpuPainter>,
     ) {
+        let overlay = layers.overlay;
         let buffer = |label, contents: &[u8], usage| {
             gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some(label),
@@ -69,7 +70,7 @@ impl Presenter {
             &overlay.texels
         };
         let texels = buffer("overlay", bytemuck::cast_slice(texels), wgpu::BufferUsages::STORAGE);
-        let uniform = showing.present(picture_size, overlay, target_size);
+        let uniform = layers.showing.present(picture_size, overlay, target_size);
         let uniform = buffer("present", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);
         let entries: Vec<_> = [sums, &texels, &uniform]
             .into_iter()
@@ -87,8 +88,12 @@ impl Presenter {
         let mut encoder = gpu
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut panel = painter.zip(layers.panel);
+        if let Some((painter, painting)) = &mut panel {
+            painter.prepare(gpu, painting, target_size, &mut encoder);
+        }
         {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("present"),
                 color_attachments: &[Some(wgpu::RenderPassColorAttachment {
                     view: target,
@@ -101,9 +106,14 @@ impl Presenter {
                 })],
                 ..Default::default()
             });
+            // The encoder is used again only after the pass.
+            let mut pass = pass.forget_lifetime();
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &group, &[]);
             pass.draw(0..3, 0..1);
+            if let Some((painter, painting)) = panel {
+                painter.draw(painting, target_size, &mut pass);
+            }
         }
         gpu.queue.submit([encoder.finish()]);
     }

@@ -52,9 +52,25 @@ impl Application {
         }
         line("first-picture", number(first));
         line("frames", self.figures.frames.to_string());
+        line("drawn", self.figures.drawn.to_string());
         line("frames-a-second", number(caption.frames_a_second));
         line("kernel-milliseconds", number(caption.kernel));
         line("megarays-a-second", number(caption.megarays_a_second));
+        let [closest, shadow] = match self.figures.kinds {
+            Some(kinds) => kinds.map(Some),
+            None => [None, None],
+        };
+        line("closest-rays-a-camera-ray", number(closest));
+        line("shadow-rays-a-camera-ray", number(shadow));
+        let parts = self.session.structure.parts;
+        line("traversal", parts.traversal.to_string());
+        line("triangle", parts.triangle.to_string());
+        line("box", parts.box_test.to_string());
+        line(
+            "material",
+            self.panel.as_ref().map_or(0, |panel| panel.layout.material).to_string(),
+        );
+        line("lights", self.session.staging.lights.len().to_string());
         text
     }
 }

@@ -1,10 +1,8 @@
 //! What the window shows, whoever draws it.
 
-use super::compose::compose;
 use super::gpu_screen::GpuScreen;
+use super::layers::Layers;
 use super::notice::Image;
-use super::overlay::Overlay;
-use super::showing::Showing;
 use super::software_screen::SoftwareScreen;
 use crate::backend::BackendError;
 use crate::backend::gpu::Gpu;
@@ -60,23 +58,15 @@ impl Screen {
         GpuScreen::new(window, gpu).map(|screen| Screen::Gpu(Box::new(screen)))
     }
 
-    /// Shows a picture with the overlay over it; false where it must be tried again later.
+    /// Shows a picture and what lies over it; false where it must be tried again later.
     ///
     /// # Errors
     /// [`ScreenError`], see there.
-    pub fn draw(
-        &mut self,
-        image: &Image,
-        overlay: &Overlay,
-        showing: &Showing,
-        size: [u32; 2],
-    ) -> Result<bool, ScreenError> {
+    pub fn draw(&mut self, image: &Image, layers: &Layers<'_>, size: [u32; 2]) -> Result<bool, ScreenError> {
         match (self, image) {
-            (Screen::Software(screen), Image::Cpu(picture)) => {
-                screen.draw(picture, overlay, showing, size).map(|()| true)
-            }
+            (Screen::Software(screen), Image::Cpu(picture)) => screen.draw(picture, layers, size).map(|()| true),
             (Screen::Software(_), Image::Gpu(_)) => Ok(true),
-            (Screen::Gpu(screen), _) => screen.draw(image, overlay, showing, size),
+            (Screen::Gpu(screen), _) => screen.draw(image, layers, size),
         }
     }
 
@@ -84,19 +74,13 @@ impl Screen {
     ///
     /// # Errors
     /// [`ScreenError::Backend`] where the GPU fails.
-    pub fn screenshot(
-        &mut self,
-        image: &Image,
-        overlay: &Overlay,
-        showing: &Showing,
-        size: [u32; 2],
-    ) -> Result<Vec<u8>, ScreenError> {
+    pub fn screenshot(&mut self, image: &Image, layers: &Layers<'_>, size: [u32; 2]) -> Result<Vec<u8>, ScreenError> {
         match (self, image) {
-            (Screen::Gpu(screen), _) => screen.screenshot(image, overlay, showing, size),
+            (Screen::Gpu(screen), _) => screen.screenshot(image, layers, size),
             (Screen::Software(_), Image::Gpu(_)) => Ok(Vec::new()),
             (Screen::Software(_), Image::Cpu(picture)) => {
                 let mut pixels = vec![0; size[0] as usize * size[1] as usize];
-                compose(picture, overlay, showing, size, &mut pixels);
+                layers.compose(picture, size, &mut pixels);
                 Ok(pixels
                     .into_iter()
                     .flat_map(|pixel: u32| {

@@ -77,7 +77,9 @@ impl Script {
 
 #[cfg(test)]
 mod tests {
+    use super::super::adjustment::Adjustment;
     use super::super::event::{Button, Key};
+    use super::super::input::Input;
     use super::super::step::Expectation;
     use super::*;
     use crate::insight::Aspect;
@@ -97,12 +99,14 @@ mod tests {
             # a comment
             drag left 100 -50
             drag shift+left 1 2.5
+            click 620 40.5
             double-click
             wheel -1.5
             key F
             key Ctrl+S
             key ?
             key Esc
+            key Tab
             resize 800 600
             minimise
             restore
@@ -116,6 +120,10 @@ mod tests {
             move 3 4.5
             pin 320 240
             unpin
+            set samples adaptive:16
+            add light
+            remove light 1
+            pick 3 4
             print
             wait settled
             wait frames 3
@@ -140,12 +148,14 @@ mod tests {
             [
                 drag(false, 100.0, -50.0),
                 drag(true, 1.0, 2.5),
+                Step::Click([620.0, 40.5]),
                 Step::DoubleClick,
                 Step::Wheel(-1.5),
                 key(Key::Character('f'), false),
                 key(Key::Character('s'), true),
                 key(Key::Character('?'), false),
                 key(Key::Escape, false),
+                key(Key::Tab, false),
                 Step::Resize([800, 600]),
                 Step::Minimise,
                 Step::Restore,
@@ -159,6 +169,10 @@ mod tests {
                 Step::Move([3.0, 4.5]),
                 Step::Pin([320.0, 240.0]),
                 Step::Unpin,
+                Step::Ask(Input::Adjust(Adjustment::parse("samples adaptive:16").unwrap())),
+                Step::Ask(Input::AddLight),
+                Step::Ask(Input::RemoveLight(1)),
+                Step::Ask(Input::Pick([3.0, 4.0])),
                 Step::Print,
                 Step::WaitSettled,
                 Step::WaitFrames(3),
@@ -193,6 +207,20 @@ mod tests {
             "drag",
             "wheel",
             "wheel nan",
+            "click 10",
+            "click -1 10",
+            "click nan 10",
+            "set",
+            "set samples",
+            "set samples 5",
+            "set material 0 mirror 2",
+            "set light x color 1",
+            "add",
+            "add lights 2",
+            "remove light",
+            "remove 1",
+            "pick 3",
+            "set fov 180",
             "resize 0 10",
             "resize 10",
             "open",

@@ -1,15 +1,22 @@
 //! What the person has set, apart from window, threads and devices.
 
+mod adjusting;
 mod home;
+mod staging;
 mod steering;
 #[cfg(test)]
 mod tests;
 
+pub use steering::DISTANCES;
+
 use super::input::Input;
 use super::seeing::{See, Seeing};
+use crate::backend::BackendChoice;
 use crate::model::Focus;
 use crate::sampling::Samples;
+use crate::scene::Staging;
 use crate::stereo::{Stereo, StereoMode};
+use crate::structure::StructureOptions;
 use crate::tone::Curve;
 use crate::view::{Shading, View};
 use glam::Vec3;
@@ -31,6 +38,10 @@ const EYE_DISTANCES: [f32; 2] = [1e-12, 1e12];
 pub struct Session {
     /// What is looked at, and how.
     pub view: View,
+    /// What is looked at is made of, and what shines on it.
+    pub staging: Staging,
+    /// What rays are to be traced through.
+    pub structure: StructureOptions,
     /// The window's size in physical pixels; 0 while it is minimised.
     pub size: [u32; 2],
     /// Physical pixels to a unit.
@@ -39,12 +50,16 @@ pub struct Session {
     pub help: bool,
     /// Whether the figures are shown.
     pub figures: bool,
+    /// Whether the panel is open.
+    pub panel: bool,
     /// Whether the picture is compared with the oracle's.
     pub oracle: bool,
     /// What is shown of the work behind the picture.
     pub seeing: Seeing,
     /// The view that came with the scene, changed as the command line says.
     home: View,
+    /// The staging that came with it.
+    home_staging: Staging,
     /// What places are counted from.
     focus: Focus,
     /// What stereo is, or would be if it was switched on.
@@ -64,10 +79,20 @@ pub enum Effect {
     Render,
     /// The picture is to be saved: into a file, or under the next free name.
     Save(Option<PathBuf>),
+    /// What is looked at is made of something else, or something else shines on it.
+    Restage,
+    /// The material of what is at that place of the window, physical pixels, is to be shown.
+    Pick([f64; 2]),
+    /// Another structure is to be built.
+    Rebuild,
+    /// Something else is to render.
+    Backend(BackendChoice),
     /// A scene is to be loaded.
     Open(PathBuf),
     /// CPU and GPU change places.
     SwitchBackend,
+    /// It cannot be: why, and what to do, in a sentence without its capital and its point.
+    Refused(String),
     /// The window closes.
     Quit,
 }
@@ -77,13 +102,17 @@ impl Session {
     pub fn new(view: View, size: [u32; 2], scale: f64) -> Self {
         Session {
             view,
+            staging: Staging::default(),
+            structure: StructureOptions::default(),
             size,
             scale,
             help: false,
             figures: true,
+            panel: false,
             oracle: false,
             seeing: Seeing::new(TraversalKind::default()),
             home: view,
+            home_staging: Staging::default(),
             focus: Focus {
                 center: Vec3::ZERO,
                 radius: 1.0,
@@ -140,6 +169,10 @@ impl Session {
                 self.figures = !self.figures;
                 return Effect::Redraw;
             }
+            Input::TogglePanel => {
+                self.panel = !self.panel;
+                return Effect::Redraw;
+            }
             Input::ToggleOracle => {
                 self.oracle = !self.oracle;
                 return Effect::Redraw;
@@ -152,6 +185,14 @@ impl Session {
                 self.seeing.apply(See::Unpin, &self.view, self.size);
                 return Effect::Redraw;
             }
+            Input::Adjust(adjustment) => match self.adjust(adjustment) {
+                Ok(None) => {}
+                Ok(Some(effect)) => return effect,
+                Err(reason) => return Effect::Refused(reason),
+            },
+            Input::Pick(at) => return Effect::Pick(at),
+            Input::AddLight => return self.add_light(),
+            Input::RemoveLight(index) => return self.remove_light(index),
             Input::SwitchBackend => return Effect::SwitchBackend,
             Input::Save(path) => return Effect::Save(path),
             Input::Open(path) => return Effect::Open(path),
@@ -177,7 +218,12 @@ impl Session {
 
     /// Between the eyes, scene units, if there are two.
     pub fn eye_distance(&self) -> f32 {
-        self.stereo.eyes_apart(self.view.camera.distance * self.focus.radius)
+        self.stereo.eyes_apart(self.target_distance())
+    }
+
+    /// From the camera to what it looks at, scene units.
+    pub fn target_distance(&self) -> f32 {
+        self.view.camera.distance * self.focus.radius
     }
 
     /// From one way of sharing the screen to the next; from the last one back to one eye.

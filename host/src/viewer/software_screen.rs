@@ -1,9 +1,7 @@
 //! A window without a GPU: the CPU writes its pixels.
 
-use super::compose::compose;
-use super::overlay::Overlay;
+use super::layers::Layers;
 use super::screen::ScreenError;
-use super::showing::Showing;
 use crate::picture::Picture;
 use softbuffer::{Context, SoftBufferError, Surface};
 use std::num::NonZeroU32;
@@ -27,23 +25,17 @@ impl SoftwareScreen {
         Ok(SoftwareScreen { window, surface })
     }
 
-    /// Shows a picture with the overlay over it in a window of that size.
+    /// Shows a picture and what lies over it in a window of that size.
     ///
     /// # Errors
     /// [`ScreenError::Software`] where the window system refuses.
-    pub fn draw(
-        &mut self,
-        picture: &Picture,
-        overlay: &Overlay,
-        showing: &Showing,
-        size: [u32; 2],
-    ) -> Result<(), ScreenError> {
+    pub fn draw(&mut self, picture: &Picture, layers: &Layers<'_>, size: [u32; 2]) -> Result<(), ScreenError> {
         let (Some(width), Some(height)) = (NonZeroU32::new(size[0]), NonZeroU32::new(size[1])) else {
             return Ok(());
         };
         self.surface.resize(width, height).map_err(failed)?;
         let mut buffer = self.surface.buffer_mut().map_err(failed)?;
-        compose(picture, overlay, showing, size, &mut buffer);
+        layers.compose(picture, size, &mut buffer);
         self.window.pre_present_notify();
         buffer.present().map_err(failed)
     }

@@ -1,6 +1,7 @@
 //! The steps of a script.
 
 use super::event::{Button, Key};
+use super::input::Input;
 use crate::insight::Aspect;
 use std::path::PathBuf;
 
@@ -18,6 +19,8 @@ pub enum Step {
         /// Pixels downwards.
         down: f64,
     },
+    /// Click with the left button at a place, physical pixels from the upper left corner.
+    Click([f64; 2]),
     /// Double click with the left button.
     DoubleClick,
     /// Turn the wheel by so many notches.
@@ -51,6 +54,8 @@ pub enum Step {
     Pin([f64; 2]),
     /// Pin none.
     Unpin,
+    /// Ask for something without a detour over pointer and keyboard.
+    Ask(Input),
     /// Print the figures.
     Print,
     /// Wait until nothing changes any more.

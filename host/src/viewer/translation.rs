@@ -57,7 +57,13 @@ impl Translation {
             Event::Button {
                 button: Button::Left,
                 pressed: true,
-            } if self.modifiers.control => self.pointer.map(|at| Input::See(See::Pin(at))),
+            } if self.modifiers.control => self.pointer.map(|at| {
+                if self.modifiers.shift {
+                    Input::Pick(at)
+                } else {
+                    Input::See(See::Pin(at))
+                }
+            }),
             Event::Button { button, pressed: true } => {
                 self.held = Some(button);
                 if button == Button::Left {
@@ -121,6 +127,7 @@ impl Translation {
     fn key(&self, key: Key) -> Option<Input> {
         Some(match key {
             Key::Escape => Input::Leave,
+            Key::Tab => Input::TogglePanel,
             Key::Character('s') if self.modifiers.control => Input::Save(None),
             Key::Character(_) if self.modifiers.control => return None,
             Key::Character('f') => Input::Frame,
@@ -296,6 +303,7 @@ mod tests {
             assert_eq!(hand.does(character(key)), input, "{key}");
         }
         assert_eq!(hand.does(Event::Key(Key::Escape)), Some(Input::Leave));
+        assert_eq!(hand.does(Event::Key(Key::Tab)), Some(Input::TogglePanel));
         assert_eq!(hand.does(Event::CloseRequested), Some(Input::Quit));
         hand.modifiers(true, false);
         assert_eq!(hand.does(character('v')), Some(Input::See(See::Previous)));
@@ -307,6 +315,10 @@ mod tests {
         hand.release(Button::Left);
         assert_eq!(hand.does(character('s')), Some(Input::Save(None)));
         assert_eq!(hand.does(character('f')), None, "Ctrl+F is something else");
+        hand.modifiers(true, true);
+        hand.moves(30.0, 40.0);
+        assert_eq!(hand.press(Button::Left), Some(Input::Pick([30.0, 40.0])));
+        assert_eq!(hand.moves(35.0, 40.0), None, "it holds nothing");
         assert_eq!(hand.does(Event::Wheel(1.5)), Some(Input::Zoom(1.5)));
         assert_eq!(hand.does(Event::Wheel(0.0)), None);
         assert_eq!(

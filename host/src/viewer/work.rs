@@ -108,8 +108,9 @@ impl Application {
     }
 
     /// Whether everything that was asked for is done and shown.
-    pub(super) fn is_settled(&self) -> bool {
+    pub(super) fn is_settled(&self, now: Instant) -> bool {
         self.schedule.is_settled()
+            && self.is_panel_settled(now)
             && self.is_shown
             && self.is_compared()
             && self.has_looked()

@@ -1,11 +1,12 @@
 //! What the renderer's thread does.
 
 use super::accident::caught;
+use super::draft::Draft;
 use super::gpu_memory::GpuMemory;
 use super::notice::{Image, Mailbox, Notice, RenderError, Rendered, SaveError};
 use super::passes::{passes, rays, wanted};
 use super::saving::Saving;
-use super::task::{Destination, Engine, Plan, Purpose, Task};
+use super::task::{Destination, Effort, Engine, Plan, Purpose, Task};
 use super::throttle::Throttle;
 use crate::backend::BackendError;
 use crate::backend::cpu::Cpu;
@@ -21,6 +22,9 @@ use std::time::{Duration, Instant};
 
 /// While a picture is refined, it is shown no more often than this.
 const REFINEMENT: Duration = Duration::from_millis(250);
+
+/// Rays are counted in one pixel of a square with this edge.
+const COUNTED: u32 = 8;
 
 /// Renders one picture after the other.
 pub struct Worker {
@@ -155,6 +159,38 @@ impl Worker {
     }
 
     fn show(&mut self, task: &Task) -> Result<(), RenderError> {
+        self.render(task)?;
+        if let Purpose::Show {
+            effort: Effort::Full { .. },
+            ..
+        } = task.purpose
+        {
+            caught(|| self.count_rays(task)).map_err(RenderError::Accident)?;
+        }
+        Ok(())
+    }
+
+    /// Counts what rays a camera ray leads to, on the CPU, in a picture an eighth as wide and as high as the finished one.
+    fn count_rays(&self, task: &Task) {
+        let draft = Draft {
+            edge: COUNTED,
+            ..Draft::FINE
+        };
+        let [width, height] = draft.size(task.size);
+        let frame = draft.simplified(&task.view).frame(&task.scene, width, height);
+        let mut picture = Picture::unwritten(frame.size().x, frame.size().y);
+        let cpu = Cpu::new(task.scene.clone());
+        if cpu.render_pass(&frame, &mut picture, &self.cancel, &silent) {
+            let effort = crate::effort::Effort::new(&picture, None);
+            let camera = rays(&frame) as f64;
+            self.mailbox.send(Notice::RaysCounted {
+                closest: effort.closest / camera,
+                shadow: effort.shadow / camera,
+            });
+        }
+    }
+
+    fn render(&mut self, task: &Task) -> Result<(), RenderError> {
         match &task.engine {
             Engine::Cpu => caught(|| {
                 self.memory.clear();

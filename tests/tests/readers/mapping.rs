@@ -13,6 +13,7 @@ use oktant_shared::ray::Ray;
 use oktant_tests::stage::see;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// What a file shows, without ambient light, and surrounded by a grey of this brightness.
 fn setting(glb: &Glb, around: f32) -> Setting {
@@ -34,7 +35,7 @@ fn setting(glb: &Glb, around: f32) -> Setting {
 /// A model as the tree of rays reads it, also where it needs none.
 fn scene(model: Model) -> Scene {
     let mut scene = Scene::of_model(model, &StructureOptions::default(), &silent).unwrap();
-    scene.material_ids.resize(scene.triangles.len(), 0);
+    Arc::make_mut(&mut scene.material_ids).resize(scene.triangles.len(), 0);
     scene
 }
 

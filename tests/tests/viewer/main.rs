@@ -7,6 +7,7 @@
 mod files;
 mod look;
 mod oracle;
+mod panel;
 mod saves;
 mod sight;
 mod start;

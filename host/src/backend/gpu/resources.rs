@@ -4,11 +4,13 @@ use super::Gpu;
 use crate::backend::BackendError;
 use crate::scene::Scene;
 use bytemuck::NoUninit;
+use glam::UVec4;
 use oktant_shared::adaptive::Mark;
 use oktant_shared::frame::Frame;
 use oktant_shared::octree::Root;
 use oktant_shared::parts::Parts;
 use oktant_shared::plane::Plane;
+use std::sync::{Arc, Weak};
 use wgpu::util::DeviceExt;
 
 /// A scene in the device's memory.
@@ -23,8 +25,31 @@ pub struct GpuScene {
     pub(super) entry: &'static str,
     /// Whether it needs one light and one plain material at most.
     pub(super) is_plain: bool,
+    /// What a scene in another staging shares with it.
+    kept: Box<Kept>,
     /// Bytes of all its buffers.
     pub bytes: u64,
+}
+
+/// Buffers that hold what scenes share, and where that lies in the computer's memory.
+struct Kept {
+    nodes: Weak<Vec<UVec4>>,
+    material_ids: Weak<Vec<u32>>,
+    vertices: wgpu::Buffer,
+    coordinates: wgpu::Buffer,
+    ids_of_materials: wgpu::Buffer,
+    planes: wgpu::Buffer,
+    textures: wgpu::Buffer,
+    texels: wgpu::Buffer,
+    /// Bytes of the structure's.
+    geometry: u64,
+}
+
+impl GpuScene {
+    /// Whether a scene has the same triangles, in this or another staging.
+    pub fn shares(&self, scene: &Scene) -> bool {
+        std::ptr::eq(self.kept.nodes.as_ptr(), Arc::as_ptr(&scene.nodes))
+    }
 }
 
 /// A picture in the device's memory: for each pixel the weighted sum of its samples' linear RGB, and of the weights.
@@ -65,44 +90,76 @@ impl Gpu {
         let triangles = self.input("triangles", scene.rows())?;
         let ids = self.input("triangle ids", &scene.ids)?;
         let geometry = [&nodes, &references, &triangles, &ids];
-        let vertices = self.input("vertices", &scene.vertices)?;
-        let coordinates = self.input("texture coordinates", &scene.coordinates)?;
-        let is_general = scene.parts != Parts::STANDARD;
-        let material_ids = if is_general && scene.material_ids.len() < scene.ids.len() {
+        let kept = Box::new(Kept {
+            nodes: Arc::downgrade(&scene.nodes),
+            material_ids: Arc::downgrade(&scene.material_ids),
+            vertices: self.input("vertices", &scene.vertices)?,
+            coordinates: self.input("texture coordinates", &scene.coordinates)?,
+            ids_of_materials: self.material_ids(scene)?,
+            planes: self.input("planes", &scene.planes)?,
+            textures: self.input("textures", &scene.textures)?,
+            texels: self.input("texels", &scene.texels)?,
+            geometry: geometry.iter().map(|buffer| buffer.size()).sum(),
+        });
+        let group = self.group(&self.layouts.scene, &geometry);
+        self.with_appearance(scene, group, kept)
+    }
+
+    /// Copies to the device what a scene has for itself: all else is there, for [`GpuScene::shares`].
+    ///
+    /// # Errors
+    /// As [`Gpu::upload`].
+    pub fn restage(&self, scene: &Scene, there: GpuScene) -> Result<GpuScene, BackendError> {
+        let GpuScene { group, mut kept, .. } = there;
+        if !std::ptr::eq(kept.material_ids.as_ptr(), Arc::as_ptr(&scene.material_ids)) {
+            kept.material_ids = Arc::downgrade(&scene.material_ids);
+            kept.ids_of_materials = self.material_ids(scene)?;
+        }
+        self.with_appearance(scene, group, kept)
+    }
+
+    fn material_ids(&self, scene: &Scene) -> Result<wgpu::Buffer, BackendError> {
+        if scene.parts != Parts::STANDARD && scene.material_ids.len() < scene.ids.len() {
             // The CPU has a body of its own for such a scene.
-            self.input("material ids", &vec![0_u32; scene.ids.len()])?
-        } else {
-            self.input("material ids", &scene.material_ids)?
-        };
+            return self.input("material ids", &vec![0_u32; scene.ids.len()]);
+        }
+        self.input("material ids", &scene.material_ids)
+    }
+
+    /// A scene of whose buffers all but those for materials and lights are there.
+    fn with_appearance(
+        &self,
+        scene: &Scene,
+        group: wgpu::BindGroup,
+        kept: Box<Kept>,
+    ) -> Result<GpuScene, BackendError> {
         let materials = self.input("materials", &scene.materials)?;
         let lights = self.input("lights", &scene.lights)?;
-        let planes = self.input("planes", &scene.planes)?;
-        let textures = self.input("textures", &scene.textures)?;
-        let texels = self.input("texels", &scene.texels)?;
         let appearance = [
-            &vertices,
-            &coordinates,
-            &material_ids,
+            &kept.vertices,
+            &kept.coordinates,
+            &kept.ids_of_materials,
             &materials,
             &lights,
-            &planes,
-            &textures,
-            &texels,
+            &kept.planes,
+            &kept.textures,
+            &kept.texels,
         ];
         self.check()?;
         Ok(GpuScene {
-            group: self.group(&self.layouts.scene, &geometry),
+            group,
             appearance: self.group(&self.layouts.appearance, &appearance),
             parts: scene.parts,
             planes: scene.planes.clone(),
             root: scene.root,
-            entry: if is_general {
+            entry: if scene.parts != Parts::STANDARD {
                 "render_general"
             } else {
                 scene.variant.entry_point()
             },
             is_plain: scene.is_plain(),
-            bytes: geometry.iter().chain(&appearance).map(|buffer| buffer.size()).sum(),
+            bytes: kept.geometry + appearance.iter().map(|buffer| buffer.size()).sum::<u64>(),
+            kept,
         })
     }
 

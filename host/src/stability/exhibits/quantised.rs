@@ -13,7 +13,7 @@ use rayon::prelude::*;
 ///
 /// The scene is one of [`oktant_shared::parts::TraversalKind::Octants`].
 pub fn closest_hits(scene: &Scene, rays: &[Ray]) -> Vec<Hit> {
-    let mut nodes = scene.nodes.clone();
+    let mut nodes = scene.nodes.to_vec();
     for node in nodes.chunks_exact_mut(NODE_VECTORS as usize) {
         // Low faces and high ones in turn.
         for (at, faces) in node[2..].iter_mut().enumerate() {

@@ -16,6 +16,7 @@ use oktant::tree::BuildPreset;
 use oktant_shared::octants::MARGIN;
 use oktant_shared::octree::Root;
 use oktant_shared::parts::TraversalKind;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// A structure in the arrays of oktant's bindings.
@@ -54,9 +55,9 @@ impl Arrays {
         })?;
         Ok(Arrays {
             root: scene.root,
-            triangles: bytemuck::cast_vec(scene.triangles),
-            nodes: scene.nodes,
-            ids: scene.ids,
+            triangles: bytemuck::cast_vec(Arc::unwrap_or_clone(scene.triangles)),
+            nodes: Arc::unwrap_or_clone(scene.nodes),
+            ids: Arc::unwrap_or_clone(scene.ids),
         })
     }
 

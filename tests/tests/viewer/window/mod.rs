@@ -78,6 +78,7 @@ impl Session {
         command
             .args(arguments)
             .current_dir(self.folder.path())
+            .env("OKTANT_STATE", "")
             .stdin(Stdio::null());
         command
     }

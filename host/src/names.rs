@@ -1,0 +1,17 @@
+//! What a file calls what is in it.
+
+/// Names of parts of a scene, for people.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Names {
+    /// By material id, as far as there are some.
+    pub materials: Vec<Option<String>>,
+    /// The image that is around.
+    pub environment: Option<String>,
+}
+
+impl Names {
+    /// The name of a material, if it has one.
+    pub fn material(&self, index: usize) -> Option<&str> {
+        self.materials.get(index)?.as_deref()
+    }
+}

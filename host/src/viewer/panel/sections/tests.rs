@@ -1,0 +1,159 @@
+//! What the panel asks for, and that it asks for nothing on its own.
+
+use super::*;
+use crate::names::Names;
+use crate::stereo::{Stereo, StereoMode};
+use crate::view::View;
+use crate::viewer::caption::Caption;
+use crate::viewer::figures::Figures;
+use crate::viewer::session::Session;
+use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Shape, pos2};
+use std::time::{Duration, Instant};
+
+const WINDOW: egui::Vec2 = egui::vec2(800.0, 2000.0);
+
+struct Window {
+    context: Context,
+    layout: Layout,
+    figures: Figures,
+}
+
+impl Window {
+    fn new() -> Self {
+        let context = Context::default();
+        context.all_styles_mut(|style| style.animation_time = 0.0);
+        let layout = Layout {
+            unfolded: Section::ALL.into(),
+            ..Layout::default()
+        };
+        let mut figures = Figures::default();
+        let start = Instant::now();
+        for i in 0..30 {
+            figures.pass(1, 1000, 3.0);
+            figures.frame(start + Duration::from_millis(20 * i));
+        }
+        Window {
+            context,
+            layout,
+            figures,
+        }
+    }
+
+    /// What is asked for when these things happen, and where texts stand then.
+    fn after(&mut self, session: &Session, events: Vec<Event>) -> (Vec<Input>, Vec<(String, Pos2)>) {
+        let facts = Facts {
+            session,
+            inventory: None,
+            names: &Names::default(),
+            wants_gpu: false,
+            figures: &self.figures,
+            caption: Caption::default(),
+        };
+        let input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, WINDOW)),
+            events,
+            ..RawInput::default()
+        };
+        let mut asked = Vec::new();
+        let mut area = Rect::NOTHING;
+        let mut output = self.context.run_ui(input, |ui| {
+            area = show(ui, &mut self.layout, &facts, &mut asked);
+        });
+        assert!(area.right() == WINDOW.x && area.width() < 400.0, "{area}");
+        output.textures_delta.clear();
+        let mut texts = Vec::new();
+        for clipped in output.shapes {
+            collect(&clipped.shape, &mut texts);
+        }
+        (asked, texts)
+    }
+
+    fn click(&mut self, session: &Session, at: Pos2) -> Vec<Input> {
+        let button = |pressed| Event::PointerButton {
+            pos: at,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        let mut asked = self.after(session, vec![Event::PointerMoved(at)]).0;
+        asked.extend(self.after(session, vec![button(true)]).0);
+        asked.extend(self.after(session, vec![button(false)]).0);
+        asked
+    }
+}
+
+fn collect(shape: &Shape, texts: &mut Vec<(String, Pos2)>) {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, texts)),
+        Shape::Text(text) => texts.push((text.galley.text().into(), text.visual_bounding_rect().center())),
+        _ => {}
+    }
+}
+
+fn session() -> Session {
+    Session::new(View::default(), [800, 600], 1.0)
+}
+
+#[test]
+fn nothing_is_asked_for_unless_somebody_does() {
+    let mut strange = session();
+    strange.view.tone.exposure = 29.0;
+    strange.view.camera.azimuth = 500.0;
+    strange.view.cutoff = 1.0 / 3.0;
+    strange.view.adaptive = true;
+    strange.view.tolerance = 0.123_456_78;
+    strange.view.stereo = Some(Stereo::new(StereoMode::Rows));
+    for session in [session(), strange] {
+        let mut window = Window::new();
+        for _ in 0..3 {
+            let (asked, texts) = window.after(&session, Vec::new());
+            assert_eq!(asked, []);
+            for name in ["samples", "fov", "exposure", "kernel"] {
+                assert!(texts.iter().any(|(text, _)| text == name), "{name}: {texts:?}");
+            }
+        }
+        for x in (0..40).map(|i| 480.0 + 8.0 * i as f32) {
+            let (asked, _) = window.after(&session, vec![Event::PointerMoved(pos2(x, 3.0 * x - 1400.0))]);
+            assert_eq!(asked, [], "a pointer that passes by");
+        }
+    }
+}
+
+#[test]
+fn a_choice_is_made_with_two_clicks() {
+    let session = session();
+    let mut window = Window::new();
+    window.after(&session, Vec::new());
+    let (_, texts) = window.after(&session, Vec::new());
+    let place = |texts: &[(String, Pos2)], wanted: &str| {
+        let found = texts.iter().rev().find(|(text, _)| text == wanted);
+        found.unwrap_or_else(|| panic!("no {wanted} in {texts:?}")).1
+    };
+    let asked = window.click(&session, place(&texts, "phong"));
+    assert_eq!(asked, [], "only the list is unfolded");
+    window.after(&session, Vec::new());
+    let (_, texts) = window.after(&session, Vec::new());
+    let asked = window.click(&session, place(&texts, "flat"));
+    assert_eq!(
+        asked,
+        [Input::Adjust(
+            crate::viewer::adjustment::Adjustment::parse("shading flat").unwrap()
+        )]
+    );
+}
+
+#[test]
+fn what_is_folded_shows_nothing() {
+    let session = session();
+    let mut window = Window::new();
+    window.after(&session, Vec::new());
+    let (_, texts) = window.after(&session, Vec::new());
+    let (_, title) = texts.iter().find(|(text, _)| text == "Picture").unwrap().clone();
+    window.click(&session, title);
+    let (_, texts) = window.after(&session, Vec::new());
+    assert!(!texts.iter().any(|(text, _)| text == "samples"));
+    assert!(!window.layout.unfolded.contains(&Section::Picture));
+    window.click(&session, title);
+    let (_, texts) = window.after(&session, Vec::new());
+    assert!(texts.iter().any(|(text, _)| text == "samples"));
+}

@@ -1,0 +1,170 @@
+//! What the window remembers from one time to the next: a small file.
+
+use super::panel::Layout;
+use crate::output::TextFile;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// No state is longer, bytes.
+const LONGEST: u64 = 1 << 16;
+
+/// The panel, as it was left.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Remembered {
+    /// Whether it was open.
+    pub panel: bool,
+    /// How it was laid out.
+    #[serde(flatten)]
+    pub layout: Layout,
+}
+
+/// A state and its file, if there is one.
+#[derive(Clone, Debug, Default)]
+pub struct StateFile {
+    path: Option<PathBuf>,
+    /// Whether it is there and cannot be used.
+    is_broken: bool,
+    /// What is in it.
+    pub remembered: Remembered,
+}
+
+impl StateFile {
+    /// Reads a file, or none; the second is a sentence for the person where it is there and cannot be used.
+    pub fn read(path: Option<PathBuf>) -> (Self, Option<String>) {
+        let Some(path) = path else {
+            return (StateFile::default(), None);
+        };
+        let (remembered, complaint) = match read(&path) {
+            Ok(remembered) => (remembered, None),
+            Err(reason) => {
+                let sentence = format!(
+                    "What the viewer remembered in {} cannot be used ({reason}); it begins anew, and replaces the file at \
+                     its end.",
+                    path.display()
+                );
+                (Remembered::default(), Some(sentence))
+            }
+        };
+        let file = StateFile {
+            path: Some(path),
+            is_broken: complaint.is_some(),
+            remembered,
+        };
+        (file, complaint)
+    }
+
+    /// Writes the file anew, whole, where it is broken or the state is another one; says why that cannot be.
+    pub fn write(&self, remembered: &Remembered) -> Result<(), String> {
+        let is_new = self.is_broken || *remembered != self.remembered;
+        let Some(path) = self.path.as_deref().filter(|_| is_new) else {
+            return Ok(());
+        };
+        let text = toml::to_string(remembered).map_err(|error| error.to_string());
+        let written = text.and_then(|text| {
+            if let Some(folder) = path.parent() {
+                fs::create_dir_all(folder).map_err(|error| error.to_string())?;
+            }
+            let file = TextFile::create(path).map_err(|error| error.to_string())?;
+            file.save(&text).map_err(|error| error.to_string())
+        });
+        written.map_err(|reason| {
+            format!(
+                "The panel's state is not remembered in {} ({}); name another file in OKTANT_STATE, or none.",
+                path.display(),
+                reason.trim_end_matches('.')
+            )
+        })
+    }
+}
+
+fn read(path: &Path) -> Result<Remembered, String> {
+    match fs::metadata(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Remembered::default()),
+        Ok(metadata) if metadata.len() > LONGEST => return Err("it is too long".into()),
+        _ => {}
+    }
+    let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
+    let remembered: Remembered = toml::from_str(&text).map_err(|error| error.message().to_owned())?;
+    if remembered.layout.width.is_finite() {
+        Ok(remembered)
+    } else {
+        Err("its width is no number".into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::panel::Section;
+    use super::*;
+
+    fn remembered() -> Remembered {
+        Remembered {
+            panel: true,
+            layout: Layout {
+                width: 351.5,
+                unfolded: [Section::Lights, Section::Statistics].into(),
+                ..Layout::default()
+            },
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("of/the/user/viewer.toml");
+        let (file, complaint) = StateFile::read(Some(path.clone()));
+        assert_eq!((file.remembered.clone(), complaint), (Remembered::default(), None));
+        assert_eq!(file.write(&Remembered::default()), Ok(()));
+        assert!(!path.exists(), "there is nothing new");
+        assert_eq!(file.write(&remembered()), Ok(()));
+        let (file, complaint) = StateFile::read(Some(path.clone()));
+        assert_eq!((file.remembered, complaint), (remembered(), None));
+        let text = fs::read_to_string(&path).unwrap();
+        assert_eq!(
+            text,
+            "panel = true\nwidth = 351.5\nunfolded = [\"lights\", \"statistics\"]\n"
+        );
+        let names: Vec<_> = fs::read_dir(path.parent().unwrap()).unwrap().collect();
+        assert_eq!(names.len(), 1, "no temporary file is left");
+    }
+
+    #[test]
+    fn what_is_broken_is_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("viewer.toml");
+        for broken in ["panel = maybe", "unfolded = [\"roof\"]", "width = nan", "\u{0}"] {
+            fs::write(&path, broken).unwrap();
+            let (file, complaint) = StateFile::read(Some(path.clone()));
+            assert_eq!(file.remembered, Remembered::default());
+            let complaint = complaint.unwrap();
+            assert!(
+                complaint.contains("cannot be used") && !complaint.contains('\n'),
+                "{complaint}"
+            );
+            assert_eq!(file.write(&Remembered::default()), Ok(()));
+            let (file, complaint) = StateFile::read(Some(path.clone()));
+            assert_eq!((file.remembered, complaint), (Remembered::default(), None));
+        }
+        fs::write(&path, "panel = true\n").unwrap();
+        let (file, complaint) = StateFile::read(Some(path.clone()));
+        assert_eq!(
+            (file.remembered.layout, complaint),
+            (Layout::default(), None),
+            "the rest is usual"
+        );
+    }
+
+    #[test]
+    fn without_a_file_nothing_is_remembered() {
+        let (file, complaint) = StateFile::read(None);
+        assert_eq!((file.write(&remembered()), complaint), (Ok(()), None));
+        let folder = tempfile::tempdir().unwrap();
+        let (file, complaint) = StateFile::read(Some(folder.path().to_path_buf()));
+        assert!(complaint.is_some(), "a folder is no file");
+        let error = file.write(&remembered()).unwrap_err();
+        assert!(error.contains("OKTANT_STATE"), "{error}");
+    }
+}

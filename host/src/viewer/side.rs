@@ -1,0 +1,104 @@
+//! The panel in the window: what it is told, and what it asks for.
+
+use super::application::Application;
+use super::event::Event;
+use super::panel::Facts;
+use super::pick::material_at;
+use super::remembered::Remembered;
+use std::time::Instant;
+use winit::event::WindowEvent;
+use winit::window::Window;
+
+impl Application {
+    /// Lets the panel have an event of the window's; whether it is for nobody else.
+    pub(super) fn panel_takes(&mut self, event: &WindowEvent, meaning: Option<&Event>) -> bool {
+        let (Some(window), Some(panel)) = (&self.window, &mut self.panel) else {
+            return false;
+        };
+        let is_taken = panel.take(window, event, meaning, self.session.panel);
+        self.redraw_stale_panel();
+        is_taken
+    }
+
+    /// Takes an event that a script made: it is the panel's, or the window's.
+    pub(super) fn take_played(&mut self, event: &Event, now: Instant) {
+        let is_open = self.session.panel;
+        let scale = self.session.scale;
+        let panel = self.panel.as_mut();
+        let is_taken = panel.is_some_and(|panel| panel.take_played(event, scale, is_open));
+        self.redraw_stale_panel();
+        if !is_taken {
+            self.take_event(event, now);
+        }
+    }
+
+    fn redraw_stale_panel(&self) {
+        if self.panel.as_ref().is_some_and(|panel| panel.is_stale()) {
+            self.redraw();
+        }
+    }
+
+    /// Lays the panel out, if it is open, and does what it asks for.
+    pub(super) fn run_panel(&mut self, window: &Window, now: Instant) {
+        if !self.session.panel {
+            return;
+        }
+        let Some(mut panel) = self.panel.take() else { return };
+        let facts = Facts {
+            session: &self.session,
+            inventory: self.inventory.as_ref(),
+            names: &self.names,
+            wants_gpu: self.wants_gpu,
+            figures: &self.figures,
+            caption: self.caption(now),
+        };
+        let asked = panel.run(window, &facts, now);
+        self.panel = Some(panel);
+        for input in asked {
+            self.take_input(input, now);
+        }
+    }
+
+    /// Shows the material of what is there in the panel, if there is something.
+    pub(super) fn pick(&mut self, at: [f64; 2]) {
+        let (Some(scene), Some(panel)) = (&self.scene, &mut self.panel) else {
+            return;
+        };
+        if let Some(material) = material_at(scene, &self.session.view, self.session.size, at) {
+            panel.layout.show_material(material);
+            self.session.panel = true;
+            self.redraw();
+        }
+    }
+
+    /// When the panel wants to be drawn again; it is drawn if that is now.
+    pub(super) fn panel_wake(&mut self, now: Instant) -> Option<Instant> {
+        let panel = self
+            .panel
+            .as_ref()
+            .filter(|_| self.session.panel && self.session.is_visible())?;
+        let wake = panel.wake()?;
+        if wake > now {
+            return Some(wake);
+        }
+        self.redraw();
+        None
+    }
+
+    /// Whether what the panel shows is what it would show now.
+    pub(super) fn is_panel_settled(&self, now: Instant) -> bool {
+        !self.session.panel || self.panel.as_ref().is_none_or(|panel| panel.is_settled(now))
+    }
+
+    /// Writes down how the panel is left.
+    pub(super) fn remember(&self) {
+        let Some(panel) = &self.panel else { return };
+        let remembered = Remembered {
+            panel: self.session.panel,
+            layout: panel.layout.clone(),
+        };
+        if let Err(sentence) = self.state.write(&remembered) {
+            eprintln!("{sentence}");
+        }
+    }
+}
