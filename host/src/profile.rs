@@ -151,7 +151,8 @@ mod tests {
             ("version = 1", "", "missing field `version`"),
             ("node = 12.5000", "node = 0", "node of octants is 0 instead of a number"),
             ("node = 12.5000", "node = nan", "node of octants is NaN"),
-            ("node = 12.5000", "node = \"x\"", "line 6: invalid type: string"),
+            // The device's name takes three lines.
+            ("node = 12.5000", "node = \"x\"", "line 8: invalid type: string"),
             ("triangle = 0.5000", "triangle = 1e300", "triangle of octree is inf"),
             ("triangle = 0.5000", "", "missing field `triangle`"),
             ("[octree]", "[bvh2]", "unknown field `bvh2`"),

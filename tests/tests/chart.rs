@@ -433,8 +433,8 @@ fn scenes_alone_make_charts_of_scenes() {
     assert_eq!(made.output.lines().count(), 9, "{}", made.output);
     let figure = Figure::read(&folder.path().join("x/image-error-rmse.csv")).unwrap();
     assert_eq!((figure.panels.len(), figure.panels[0].name.as_str()), (1, "a"));
-    // Three patterns in four numbers of samples, and in three that are adaptive.
-    assert_eq!(figure.records.len(), 21);
+    // Three patterns in four numbers of samples, and in three that are adaptive, and three sizes of blocks.
+    assert_eq!(figure.records.len(), 24);
 }
 
 #[test]

@@ -269,7 +269,6 @@ fn what_cannot_be_shown_is_refused_in_a_sentence() {
         (&["--show", "steps", "--range", "5..0"], "0..60"),
         (&["--range", "0..5"], "--show"),
         (&["--legend", "off"], "--show"),
-        (&["--json"], "--show"),
         (&["--cells", "x"], "640,480"),
         (&["--cells", "64,0"], "63,47"),
         (&["--cells", "all", "--stereo", "rows"], "--stereo none"),

@@ -104,7 +104,7 @@ fn held_against_the_oracle(
     all
 }
 
-/// The counts of tests that are not watertight are pinned: the rays are always the same, and what a triangle test loses
+/// The counts of tests that are not watertight are pinned: the rays are always the same (some are aimed at the cells of the default octree), and what a triangle test loses
 /// does not depend on the structure.
 #[test]
 fn every_combination_equals_the_oracle_on_the_cpu() {
@@ -112,8 +112,8 @@ fn every_combination_equals_the_oracle_on_the_cpu() {
         let overlooked = match parts.triangle {
             TriangleKind::Watertight => 0,
             TriangleKind::MollerTrumbore => 2,
-            TriangleKind::BaldwinWeber => 43,
-            TriangleKind::Plucker => 2,
+            TriangleKind::BaldwinWeber => 47,
+            TriangleKind::Plucker => 0,
         };
         assert_eq!((sums.wrong, sums.overlooked), (0, overlooked), "{parts}");
         assert_eq!(sums.very_far, 0, "{parts}");

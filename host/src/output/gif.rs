@@ -106,8 +106,9 @@ mod tests {
             .map(|(is, was)| u32::from(is.abs_diff(*was)))
             .sum();
         let mean = f64::from(off) / frame.len() as f64;
-        // 4096 colours of a square in 256: a grid of cells of 16 x 16 steps is off by 4 in two channels of three.
-        assert!(mean > 0.0 && mean < 4.0, "{mean}");
+        // 4096 colours of a square in 256: a grid of cells of 16 x 16 steps would be off by 2.7; the palette is found by a net
+        // that learns, and learns it half as well.
+        assert!(mean > 0.0 && mean < 2.0 * 8.0 / 3.0, "{mean}");
     }
 
     #[test]

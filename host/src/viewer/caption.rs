@@ -6,32 +6,28 @@ use crate::tone::{self, Curve};
 use clap::ValueEnum;
 
 /// What every key and every drag does.
-const HELP: [(&str, &str); 26] = [
-    ("left drag", "turn the camera"),
-    ("right drag", "turn the light"),
-    ("middle drag, Shift+drag", "pan"),
-    ("Ctrl+Shift+click", "the material that is there, in the panel"),
+const HELP: [(&str, &str); 22] = [
+    ("left, right drag", "turn the camera, the light"),
+    ("middle, Shift+drag", "pan"),
+    ("Ctrl+Shift+click", "show a material in the panel"),
     ("wheel", "come closer, go away"),
-    ("double click, F", "fit what is looked at into the window"),
+    ("double click, F", "fit everything into the window"),
     ("R", "back to the first view"),
     ("P", "flat or Phong shading"),
     ("M", "1, 4, 16 or 64 samples a pixel"),
     (". ,", "more or fewer reflections"),
-    ("T", "next tone curve"),
-    ("+ -", "brighter, darker"),
+    ("T, + -", "next tone curve, brighter, darker"),
     ("3", "next kind of stereo"),
     ("] [", "eyes farther apart, nearer"),
     ("B", "CPU or GPU"),
-    ("I", "figures on or off"),
-    ("Tab", "panel on or off"),
+    ("I, Tab", "figures, panel on or off"),
     ("O", "compare with the oracle"),
-    ("V, Shift+V", "what pixels tell: next, previous"),
-    ("C", "cells: leaves, a level, under the pointer"),
-    ("> <", "level of the cells"),
+    ("V, Shift+V", "what pixels cost: next, previous"),
+    ("C > <", "cells of the structure, their level"),
     ("Ctrl+click", "pin a ray"),
     ("H, ?", "this list"),
     ("Ctrl+S", "save the picture"),
-    ("drop a scene or mesh file", "look at it"),
+    ("drop a file", "look at the scene or mesh"),
     ("Esc", "unpin, quit"),
 ];
 
@@ -266,7 +262,7 @@ mod tests {
         assert_eq!(
             text(&caption),
             [
-                "CPU, 2 threads   H: keys",
+                "CPU, 2 threads   H: keys   Tab: panel",
                 "59.9 frames/s   kernel 1.50 ms   826 Mrays/s",
                 "69,451 triangles   1280 \u{d7} 968   4 samples   Phong   depth 5",
             ]

@@ -97,6 +97,7 @@ pub fn step(line: &str) -> Result<Step, String> {
     })
 }
 
+/// A place in the window.
 fn place(step: &str, rest: &str) -> Result<[f64; 2], String> {
     match numbers::<f64>(rest)?.as_slice() {
         [x @ 0.0..=32_768.0, y @ 0.0..=32_768.0] => Ok([*x, *y]),
@@ -136,16 +137,6 @@ fn shown(name: &str) -> Result<Option<Aspect>, String> {
             let names: Vec<&str> = ["picture"].into_iter().chain(Aspect::ALL.map(Aspect::name)).collect();
             Err(unknown(name, "thing to show", &names))
         }
-    }
-}
-
-/// A place in the window.
-fn place(step: &str, rest: &str) -> Result<[f64; 2], String> {
-    match numbers::<f64>(rest)?.as_slice() {
-        [x, y] if (0.0..1e6).contains(x) && (0.0..1e6).contains(y) => Ok([*x, *y]),
-        _ => Err(format!(
-            "give pixels from the left and from the top, for example: {step} 320 240"
-        )),
     }
 }
 

@@ -176,7 +176,7 @@ impl Application {
         let layers = Layers {
             overlay: veiled.as_ref().unwrap_or(&self.overlay),
             panel: self.panel.as_ref().and_then(|panel| panel.painting(&self.session)),
-            showing,
+            showing: *showing,
         };
         let pixels = screen
             .screenshot(image, &layers, size)

@@ -114,10 +114,10 @@ fn settings_do_what_options_do() {
 #[ignore = "needs a display"]
 fn what_is_done_on_the_panel_does_not_turn_the_camera() {
     let session = Session::new();
-    // The middle of the window is on the panel.
+    // The middle of the window is on the panel, among names of settings.
     let report = run(
         &session,
-        &["--backend", "cpu", "--size", "320x400", "--panel", "on"],
+        &["--backend", "cpu", "--size", "520x400", "--panel", "on"],
         "wait settled
         print
         drag left 20 30

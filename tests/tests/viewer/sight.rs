@@ -84,11 +84,11 @@ fn pixels_tell_it_over_the_gpus_picture() {
     pixels_tell_what_the_command_shows("gpu");
 }
 
-fn cells_and_pins_are_drawn(backend: &str) {
+fn cells_and_pins_are_drawn(backend: &str, traversal: &str) {
     let session = Session::new();
     let report = run(
         &session,
-        &["--backend", backend, "--size", SIZE, "--traversal", "octree"],
+        &["--backend", backend, "--size", SIZE, "--traversal", traversal],
         "key I
         wait settled
         screenshot bare.png
@@ -140,7 +140,8 @@ fn cells_and_pins_are_drawn(backend: &str) {
     ] {
         let same = agreement(drawn, &bare);
         println!("{backend}: {:.1} % of the pixels are as without {name}", same * 100.0);
-        assert!(same < 0.99, "{name}: {same}");
+        // The cells of a single ray are few.
+        assert!(same < 0.998, "{name}: {same}");
     }
     assert_same("the pinned cells are those under the pointer", &pinned, &pointer);
     assert!(
@@ -176,27 +177,25 @@ fn cells_and_pins_are_drawn(backend: &str) {
     let count = |list: &str| trace[list].as_array().unwrap().len();
     let said: Vec<f32> = pins[2].split(' ').map(|word| word.parse().unwrap()).collect();
     let hit = [&trace["hit"]["triangle"], &trace["hit"]["t"]].map(|number| number.as_f64().unwrap() as f32);
-    // The octree visits leaves alone, each once.
-    let wanted = [
-        hit[0],
-        hit[1],
-        count("visits") as f32,
-        count("tests") as f32,
-        count("visits") as f32,
-    ];
+    let visits = trace["visits"].as_array().unwrap();
+    let nodes = visits.iter().filter(|visit| visit["kind"] == "node").count();
+    // The octree visits leaves alone.
+    let steps = if nodes == 0 { visits.len() } else { nodes };
+    let wanted = [hit[0], hit[1], steps as f32, count("tests") as f32, visits.len() as f32];
     assert_eq!(said, wanted, "{report}");
 }
 
 #[test]
 #[ignore = "needs a display"]
 fn cells_and_pins_are_over_the_cpus_picture() {
-    cells_and_pins_are_drawn("cpu");
+    cells_and_pins_are_drawn("cpu", "octree");
 }
 
 #[test]
 #[ignore = "needs a display and a Vulkan driver"]
 fn cells_and_pins_are_over_the_gpus_picture() {
-    cells_and_pins_are_drawn("gpu");
+    // lavapipe takes long over the kernel that has all traversals.
+    cells_and_pins_are_drawn("gpu", "octants");
 }
 
 #[test]

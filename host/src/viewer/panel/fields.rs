@@ -6,6 +6,9 @@ use egui::{CollapsingHeader, ComboBox, DragValue, Grid, Slider, Ui};
 use glam::Vec3;
 use std::ops::RangeInclusive;
 
+/// Characters that fit into a row beside its name.
+const LONGEST: usize = 22;
+
 /// Where rows are added, and what is asked for in them.
 pub struct Fields<'a> {
     ui: &'a mut Ui,
@@ -31,10 +34,14 @@ impl<'a> Fields<'a> {
             .show(self.ui, |ui| rows(&mut Fields { ui, asked }));
     }
 
-    /// A row that says something.
+    /// A row that says something; what would widen the panel is shown whole under the pointer only.
     pub fn text(&mut self, name: &str, text: impl Into<String>) {
+        let text = text.into();
         self.ui.label(name);
-        self.ui.monospace(text.into());
+        match text.char_indices().nth(LONGEST) {
+            None => self.ui.monospace(text),
+            Some((end, _)) => self.ui.monospace(format!("{}…", &text[..end])).on_hover_text(text),
+        };
         self.ui.end_row();
     }
 

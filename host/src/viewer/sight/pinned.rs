@@ -220,11 +220,10 @@ fn options(structure: &StructureOptions) -> String {
     }
     let (octree, grid) = (structure.octree, structure.grid);
     if octree != usual.octree {
-        let _ = write!(
-            text,
-            " --octree depth={},leaf={},budget={}",
-            octree.depth, octree.leaf, octree.budget
-        );
+        let _ = write!(text, " --octree depth={},budget={}", octree.depth, octree.budget);
+        if let Some(leaf) = octree.leaf {
+            let _ = write!(text, ",leaf={leaf}");
+        }
     }
     if grid != usual.grid {
         let _ = write!(text, " --grid density={},budget={}", grid.density, grid.budget);
@@ -279,7 +278,9 @@ mod tests {
         let mut structure = StructureOptions::of(TraversalKind::Octree);
         structure.octree.depth = 5;
         let text = options(&structure);
-        assert!(text.starts_with(" --traversal octree --octree depth=5,leaf="), "{text}");
+        assert_eq!(text, " --traversal octree --octree depth=5,budget=16");
+        structure.octree.leaf = Some(8);
+        assert!(options(&structure).ends_with(" --octree depth=5,budget=16,leaf=8"));
         assert_eq!(options(&StructureOptions::default()), "");
     }
 }
