@@ -85,18 +85,9 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         "variant",
         format!("{}, of plain, opaque, mirrors and everything", scene.variant),
     );
-    let arrays = [
-        ("nodes", memory.nodes),
-        ("references", memory.references),
-        ("triangles", memory.triangles),
-        ("ids", memory.ids),
-        ("normals", memory.normals),
-        ("colours", memory.colors),
-        ("coordinates", memory.coordinates),
-        ("materials", memory.materials),
-        ("others", memory.others),
-    ];
-    let arrays = arrays.map(|(name, bytes)| format!("{name} {:.1}", each(bytes)));
+    let arrays = memory
+        .arrays()
+        .map(|(name, bytes)| format!("{name} {:.1}", each(bytes)));
     line("arrays", format!("bytes per triangle: {}", arrays.join(", ")));
     line(
         "time",

@@ -27,6 +27,21 @@ pub struct Memory {
 }
 
 impl Memory {
+    /// All of them with their names, for people.
+    pub fn arrays(&self) -> [(&'static str, usize); 9] {
+        [
+            ("nodes", self.nodes),
+            ("references", self.references),
+            ("triangles", self.triangles),
+            ("ids", self.ids),
+            ("normals", self.normals),
+            ("colours", self.colors),
+            ("coordinates", self.coordinates),
+            ("materials", self.materials),
+            ("others", self.others),
+        ]
+    }
+
     /// Of a scene. An array that nothing refers to counts with its one element.
     pub fn of(scene: &Scene) -> Self {
         let references = size_of_val(scene.references.as_slice());

@@ -46,18 +46,7 @@ fn structure(fields: &mut Fields<'_>, figures: &Figures) {
 
 fn memory(fields: &mut Fields<'_>, memory: &Memory) {
     fields.table("memory", |fields| {
-        for (name, bytes) in [
-            ("nodes", memory.nodes),
-            ("references", memory.references),
-            ("triangles", memory.triangles),
-            ("ids", memory.ids),
-            ("normals", memory.normals),
-            ("colours", memory.colors),
-            ("coordinates", memory.coordinates),
-            ("materials", memory.materials),
-            ("others", memory.others),
-            ("all", memory.total()),
-        ] {
+        for (name, bytes) in memory.arrays().into_iter().chain([("all", memory.total())]) {
             fields.text(name, format!("{} B", grouped(bytes)));
         }
     });
