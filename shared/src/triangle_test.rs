@@ -11,10 +11,14 @@ pub use indexed::Indexed;
 pub use moller_trumbore::MollerTrumbore;
 pub use plucker::Plucker;
 pub use watertight::Watertight;
+#[cfg(target_arch = "x86_64")]
+pub use watertight::{Eight, EightCrossings};
 
 use crate::ray::PreparedRay;
 use crate::scene::Scene;
 use crate::triangle::Triangle;
+#[cfg(target_arch = "x86_64")]
+use core::arch::x86_64::__m256;
 #[cfg(target_arch = "x86_64")]
 use glam::Vec4;
 
@@ -78,6 +82,25 @@ pub trait TriangleTest: Copy {
     #[inline(always)]
     fn crossing_at(&self, scene: &Scene<'_>, slot: u32) -> Crossing {
         self.crossing(&Triangle::at(scene.triangles, slot))
+    }
+
+    /// The same for eight rays, of which origins and directions are given by axis, where the test is [`Watertight`]'s and
+    /// the rays are alike enough; else none.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn eight(_origin: [__m256; 3], _direction: [__m256; 3]) -> Option<Eight> {
+        None
+    }
+
+    /// Where the rows of a triangle's corners lie.
+    ///
+    /// # Safety
+    /// The slot is in range.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    unsafe fn corners_at(scene: &Scene<'_>, slot: u32) -> [*const Vec4; 3] {
+        // SAFETY: the caller's.
+        unsafe { rows(scene, slot) }
     }
 
     /// The same of the triangles at the first `count` of four slots, bit for bit; nothing is said of the other lanes.

@@ -2,6 +2,7 @@
 
 #![cfg(test)]
 
+use glam::Vec3;
 use oktant_shared::hit::Hit;
 use oktant_shared::octants::{NODE_VECTORS, Octants};
 use oktant_shared::parts::TraversalKind;
@@ -19,6 +20,9 @@ const RAYS: usize = 20_000;
 /// How many rays are given at once where many are: neither even nor a divisor of all.
 const AT_ONCE: usize = 61;
 
+/// The same where packets of eight are to be as they were made.
+const PACKETS: usize = 800;
+
 fn bits(hit: Hit) -> [u32; 4] {
     [hit.t.to_bits(), hit.triangle, hit.u.to_bits(), hit.v.to_bits()]
 }
@@ -29,8 +33,8 @@ fn answers<V: Traversal>(scene: &Scene<'_>, rays: &[Ray]) -> Vec<([u32; 4], bool
         .collect()
 }
 
-fn answers_at_once<V: Traversal>(scene: &Scene<'_>, rays: &[Ray]) -> Vec<([u32; 4], bool)> {
-    let chunks = rays.par_chunks(AT_ONCE).map(|rays| {
+fn answers_at_once<V: Traversal>(scene: &Scene<'_>, rays: &[Ray], count: usize) -> Vec<([u32; 4], bool)> {
+    let chunks = rays.par_chunks(count).map(|rays| {
         let mut hits = vec![Hit::miss(-1.0); rays.len()];
         let mut are_hit = vec![false; rays.len()];
         V::closest_hits(scene, rays, &mut hits);
@@ -45,7 +49,7 @@ fn compare_all<T: TriangleTest>(scene: &Scene<'_>, rays: &[Ray], what: &str) -> 
     let one_by_one = answers::<Octants<T, false>>(scene, rays);
     for (way, in_lanes) in [
         ("alone", answers::<Octants<T>>(scene, rays)),
-        ("at once", answers_at_once::<Octants<T>>(scene, rays)),
+        ("at once", answers_at_once::<Octants<T>>(scene, rays, AT_ONCE)),
     ] {
         for ((ray, a), b) in rays.iter().zip(&in_lanes).zip(&one_by_one) {
             assert_eq!(a, b, "{what}, {way}: {ray:?}");
@@ -106,6 +110,62 @@ fn rays_of_all_sizes_are_the_same() {
     }
 }
 
+/// Eight rays and eight and so on that go nearly the same way from nearly the same place, with limits of their own: such go
+/// together where all are alike enough.
+fn alike(subject: &Subject, rays: &[Ray]) -> Vec<Ray> {
+    let size = subject.scene(TraversalKind::Octants).view().root.size();
+    let mut alike = Vec::with_capacity(8 * rays.len());
+    for (k, ray) in rays.iter().enumerate() {
+        // None, few and many of the packet's rays end elsewhere.
+        let spread = [0.0, 1e-6, 1e-3, 0.02, 0.2][k % 5];
+        let length = ray.direction.length();
+        for lane in 0..8 {
+            let aside = [0.0, 1.0, -1.0, 0.3, -0.7, 0.5, 0.1, -0.2].map(|part: f32| part * spread);
+            let change = Vec3::new(aside[lane], aside[(lane + 3) % 8], aside[(lane + 5) % 8]);
+            let limited = k / 5 % 3 == 1 && lane % 3 == k % 3;
+            alike.push(Ray {
+                origin: ray.origin + change * (if k % 2 == 0 { 0.0 } else { size }),
+                direction: ray.direction + change * length,
+                t_min: if limited { 0.4 * size / length } else { ray.t_min },
+                t_max: if limited { 0.9 * size / length } else { ray.t_max },
+            });
+        }
+    }
+    alike
+}
+
+#[test]
+fn rays_that_go_together_are_the_same() {
+    for subject in Subject::all() {
+        let (own, shared) = (
+            subject.scene(TraversalKind::Octants),
+            subject.scene(TraversalKind::Compact),
+        );
+        let mut found = 0;
+        for class in RayClass::ALL {
+            let rays = alike(&subject, &subject.rays(class, RAYS / 8));
+            let what = format!("together, {}, class {}", subject.name, class.name());
+            let one_by_one = answers::<Octants<Watertight, false>>(&own.view(), &rays);
+            for (indexed, answers) in [
+                (
+                    false,
+                    answers_at_once::<Octants<Watertight>>(&own.view(), &rays, PACKETS),
+                ),
+                (
+                    true,
+                    answers_at_once::<Octants<Indexed<Watertight>>>(&shared.view(), &rays, PACKETS),
+                ),
+            ] {
+                for ((ray, a), b) in rays.iter().zip(&answers).zip(&one_by_one) {
+                    assert_eq!(a, b, "{what}, indexed: {indexed}: {ray:?}");
+                }
+            }
+            found += one_by_one.iter().filter(|answer| answer.1).count();
+        }
+        assert!(found > 0, "{}: no ray hits anything", subject.name);
+    }
+}
+
 #[test]
 fn watertight_hits_are_the_same() {
     compare::<Watertight>("watertight");
@@ -143,8 +203,8 @@ fn indexed_triangles_are_hit_the_same() {
             let what = format!("indexed, {}, class {}", subject.name, class.name());
             found += compare_all::<Indexed<Watertight>>(&shared, &rays, &what);
             let (a, b) = (
-                answers_at_once::<Octants<Watertight>>(&own, &rays),
-                answers_at_once::<Octants<Indexed<Watertight>>>(&shared, &rays),
+                answers_at_once::<Octants<Watertight>>(&own, &rays, AT_ONCE),
+                answers_at_once::<Octants<Indexed<Watertight>>>(&shared, &rays, AT_ONCE),
             );
             for ((ray, a), b) in rays.iter().zip(&a).zip(&b) {
                 assert_eq!(a, b, "{what}: {ray:?}");
@@ -160,6 +220,15 @@ fn cut<V: Traversal>(traversal: TraversalKind, cut: impl for<'a> Fn(Scene<'a>) -
     let scene = subject.scene(traversal);
     for ray in subject.rays(RayClass::ALL[0], 1000) {
         V::closest_hit(&cut(scene.view()), &ray);
+    }
+}
+
+/// The same of eight rays that go together.
+fn cut_together<V: Traversal>(traversal: TraversalKind, cut: impl for<'a> Fn(Scene<'a>) -> Scene<'a>) {
+    let subject = &Subject::all()[0];
+    let scene = subject.scene(traversal);
+    for ray in subject.rays(RayClass::ALL[0], 1000) {
+        V::closest_hits(&cut(scene.view()), &[ray; 8], &mut [Hit::miss(0.0); 8]);
     }
 }
 
@@ -194,6 +263,42 @@ fn indices_that_are_not_there_are_not_read() {
 #[should_panic = "there is no such vertex"]
 fn corners_that_are_not_there_are_not_read() {
     cut::<Compact>(TraversalKind::Compact, |scene| Scene {
+        triangles: &scene.triangles[..1],
+        ..scene
+    });
+}
+
+#[test]
+#[should_panic = "there is no such node"]
+fn nodes_that_are_not_there_are_not_read_together() {
+    cut_together::<Standard>(TraversalKind::Octants, |scene| Scene {
+        nodes: &scene.nodes[..NODE_VECTORS as usize],
+        ..scene
+    });
+}
+
+#[test]
+#[should_panic = "there is no such triangle"]
+fn triangles_that_are_not_there_are_not_read_together() {
+    cut_together::<Standard>(TraversalKind::Octants, |scene| Scene {
+        triangles: &scene.triangles[..3],
+        ..scene
+    });
+}
+
+#[test]
+#[should_panic = "there is no such triangle"]
+fn indices_that_are_not_there_are_not_read_together() {
+    cut_together::<Compact>(TraversalKind::Compact, |scene| Scene {
+        references: &scene.references[..3],
+        ..scene
+    });
+}
+
+#[test]
+#[should_panic = "there is no such vertex"]
+fn corners_that_are_not_there_are_not_read_together() {
+    cut_together::<Compact>(TraversalKind::Compact, |scene| Scene {
         triangles: &scene.triangles[..1],
         ..scene
     });

@@ -1,12 +1,15 @@
-//! The traversal for processors that have AVX2: eight boxes and four triangles at a time, in lanes, and two rays in turn.
+//! The traversal for processors that have AVX2: eight boxes and four triangles at a time, in lanes, and two rays in turn;
+//! eight rays that go much the same way together.
 //!
 //! Boxes are tested with fused multiply-add, triangles without it: a box may be met that the scalar twin passes by, hits are
 //! the same bit for bit.
 
 mod batch;
 mod node;
+mod packet;
 mod pursuit;
 mod start;
+mod together;
 
 use crate::hit::Hit;
 use crate::ray::Ray;
@@ -14,6 +17,7 @@ use crate::scene::Scene;
 use crate::triangle_test::TriangleTest;
 use pursuit::{pursue, pursue_one};
 use std::sync::LazyLock;
+use together::pursue_together;
 
 /// Whether this processor has what the functions below need; asked once, then remembered.
 #[inline(always)]
@@ -57,7 +61,7 @@ pub(super) unsafe fn any_hit<T: TriangleTest>(scene: &Scene<'_>, ray: &Ray) -> b
 /// As of [`closest_hit`].
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 pub(super) unsafe fn closest_hits<T: TriangleTest>(scene: &Scene<'_>, rays: &[Ray], hits: &mut [Hit]) {
-    pursue::<T, false>(scene, rays, |index, found| hits[index] = found);
+    apart_or_together::<T, false>(scene, rays, |index, found| hits[index] = found);
 }
 
 /// Which of as many rays have a hit.
@@ -66,5 +70,33 @@ pub(super) unsafe fn closest_hits<T: TriangleTest>(scene: &Scene<'_>, rays: &[Ra
 /// As of [`closest_hit`].
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 pub(super) unsafe fn any_hits<T: TriangleTest>(scene: &Scene<'_>, rays: &[Ray], are_hit: &mut [bool]) {
-    pursue::<T, true>(scene, rays, |index, found| are_hit[index] = found.is_hit());
+    apart_or_together::<T, true>(scene, rays, |index, found| are_hit[index] = found.is_hit());
+}
+
+/// Searches for all rays, eight that go much the same way together. `tell` gets the index and what is found of each.
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+#[inline]
+fn apart_or_together<T: TriangleTest, const ANY: bool>(
+    scene: &Scene<'_>,
+    rays: &[Ray],
+    mut tell: impl FnMut(usize, Hit),
+) {
+    let (packets, _) = rays.as_chunks::<8>();
+    // Those before are done, and those from there on go apart.
+    let mut done = 0;
+    for place in 0..=packets.len() {
+        let found = packets
+            .get(place)
+            .and_then(|packet| pursue_together::<T, ANY>(scene, packet));
+        let is_last = place == packets.len();
+        if found.is_none() && !is_last {
+            continue;
+        }
+        let end = if is_last { rays.len() } else { 8 * place };
+        pursue::<T, ANY>(scene, &rays[done..end], |index, found| tell(done + index, found));
+        for (lane, found) in found.into_iter().flatten().enumerate() {
+            tell(end + lane, found);
+        }
+        done = end + 8;
+    }
 }

@@ -7,6 +7,10 @@ use crate::triangle::Triangle;
 #[cfg(target_arch = "x86_64")]
 use crate::triangle_test::Crossings;
 #[cfg(target_arch = "x86_64")]
+use crate::triangle_test::Eight;
+#[cfg(target_arch = "x86_64")]
+use core::arch::x86_64::__m256;
+#[cfg(target_arch = "x86_64")]
 use glam::Vec4;
 
 /// The triangle test `T` of triangles that are three indices each (see [`Triangle::indexed`]): a triangle of a closed mesh
@@ -42,6 +46,19 @@ impl<T: TriangleTest> TriangleTest for Indexed<T> {
     #[inline(always)]
     fn slots(scene: &Scene<'_>) -> usize {
         scene.references.len() / 3
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn eight(origin: [__m256; 3], direction: [__m256; 3]) -> Option<Eight> {
+        T::eight(origin, direction)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    unsafe fn corners_at(scene: &Scene<'_>, slot: u32) -> [*const Vec4; 3] {
+        // SAFETY: the caller's.
+        unsafe { corners(scene, slot) }
     }
 
     #[cfg(target_arch = "x86_64")]

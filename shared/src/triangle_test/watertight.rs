@@ -3,7 +3,12 @@
 #[cfg(not(target_arch = "spirv"))]
 mod edge_on;
 #[cfg(target_arch = "x86_64")]
+mod eight;
+#[cfg(target_arch = "x86_64")]
 mod four;
+
+#[cfg(target_arch = "x86_64")]
+pub use eight::{Eight, EightCrossings};
 
 use super::{Crossing, TriangleTest};
 use crate::arithmetic::{difference_of_products, multiply_subtract};
@@ -11,6 +16,8 @@ use crate::ray::PreparedRay;
 use crate::triangle::Triangle;
 #[cfg(target_arch = "x86_64")]
 use crate::triangle_test::Crossings;
+#[cfg(target_arch = "x86_64")]
+use core::arch::x86_64::__m256;
 use glam::Vec3;
 #[cfg(target_arch = "x86_64")]
 use glam::Vec4;
@@ -84,6 +91,13 @@ impl TriangleTest for Watertight {
             u: weight_b * reciprocal,
             v: weight_c * reciprocal,
         }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn eight(origin: [__m256; 3], direction: [__m256; 3]) -> Option<Eight> {
+        // SAFETY: who has registers of eight lanes has AVX2.
+        unsafe { Eight::prepare(origin, direction) }
     }
 
     #[cfg(target_arch = "x86_64")]

@@ -171,13 +171,8 @@ impl<'a> Nodes<'a> {
         // SAFETY: nodes are 128 bytes, of which all that is read here is some and can be read from anywhere.
         unsafe {
             let words = at.cast::<f32>();
-            let frame = _mm_loadu_ps(words);
-            // The last lane is no number and may look like one that takes long to compute with.
-            let corner = _mm_blend_ps::<0b1000>(frame, _mm_setzero_ps());
+            let (corner, exponents) = raster(_mm_loadu_ps(words));
             let starts = _mm_fmadd_ps(corner, self.reciprocal, self.offset);
-            // The axes' exponents; added to those of the reciprocals they make their products.
-            let highest = _mm_set_epi32(-1, 0x0e80_8080, 0x0d80_8080, 0x0c80_8080);
-            let exponents = _mm_srli_epi32::<1>(_mm_shuffle_epi8(_mm_castps_si128(frame), highest));
             let steps = _mm_castsi128_ps(_mm_add_epi32(exponents, self.unscaled));
             let lanes = |v: __m128, axis: usize| match axis {
                 0 => _mm256_broadcastss_ps(v),
@@ -260,6 +255,109 @@ impl<'a> Nodes<'a> {
             _mm_prefetch::<_MM_HINT_T0>(node.wrapping_add(64).cast());
         }
     }
+}
+
+/// The children of a node as a packet sees them, in the order in which its rays meet them: child `slot XOR octant`.
+pub(super) struct Children {
+    /// Of the node's raster, by axis.
+    pub corner: [f32; 4],
+    /// The axes' exponents; added to those of the reciprocals they make their products.
+    pub exponents: [i32; 4],
+    /// Nearer faces of the children, by axis.
+    pub near: [[f32; 8]; 3],
+    /// Farther faces of the children, by axis.
+    pub far: [[f32; 8]; 3],
+    /// Children that are leaves.
+    pub leaves: u32,
+    /// Children that are nodes.
+    pub inner: u32,
+    octant: usize,
+    /// Slots with children that are nodes.
+    inner_slots: u8,
+    /// Index of the first of those.
+    first_node: u32,
+    /// First slot of the leaves' triangles.
+    first_triangle: u32,
+    /// Of each octant's leaf the count times 32 plus its first triangle's place among the node's.
+    places: [u8; 8],
+}
+
+impl Children {
+    /// Of a node, for rays of an octant, 0 to 7.
+    ///
+    /// # Safety
+    /// There is such a node.
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+    #[inline]
+    pub unsafe fn new(nodes: &[UVec4], node: u32, octant: usize) -> Children {
+        // SAFETY: a node is 128 bytes, which can be read from anywhere.
+        let (at, frame, links) = unsafe {
+            let at = nodes.as_ptr().add((node * NODE_VECTORS) as usize);
+            (at.cast::<u8>(), _mm_loadu_ps(at.cast()), *at.add(1))
+        };
+        let (corner, exponents) = raster(frame);
+        let places = [links.z, links.w];
+        let none = _mm_cmpeq_epi8(
+            _mm_set_epi64x(0, (u64::from(places[0]) | u64::from(places[1]) << 32) as i64),
+            _mm_setzero_si128(),
+        );
+        let leaves = !_mm_movemask_epi8(none) as u8;
+        let inner_slots = (_mm_extract_epi32::<3>(_mm_castps_si128(frame)) as u32 >> 24) as u8;
+        let mut children = Children {
+            corner: [0.0; 4],
+            exponents: [0; 4],
+            near: [[0.0; 8]; 3],
+            far: [[0.0; 8]; 3],
+            leaves: u32::from(TOWARD[octant][usize::from(leaves)]),
+            inner: u32::from(TOWARD[octant][usize::from(inner_slots)]),
+            octant,
+            inner_slots,
+            first_node: links.x,
+            first_triangle: links.y,
+            places: bytemuck::cast(places),
+        };
+        let halves = in_lanes(&HALVES[octant]);
+        // SAFETY: there is room for as many words as are stored, and all that is read is the node's.
+        unsafe {
+            _mm_storeu_ps(children.corner.as_mut_ptr(), corner);
+            _mm_storeu_si128(children.exponents.as_mut_ptr().cast(), exponents);
+            for axis in 0..3 {
+                let faces = |side: usize| {
+                    let faces = _mm_loadu_si128(at.add(32 + 32 * axis + 16 * side).cast());
+                    _mm256_castsi256_ps(_mm256_shuffle_epi8(_mm256_broadcastsi128_si256(faces), halves))
+                };
+                let is_against = octant >> axis & 1;
+                _mm256_storeu_ps(children.near[axis].as_mut_ptr(), faces(is_against));
+                _mm256_storeu_ps(children.far[axis].as_mut_ptr(), faces(1 - is_against));
+            }
+        }
+        children
+    }
+
+    /// First slot and number of the triangles of a child that is a leaf.
+    #[inline(always)]
+    pub fn leaf(&self, child: usize) -> (u32, u32) {
+        let place = u32::from(self.places[(child ^ self.octant) & 7]);
+        (self.first_triangle.wrapping_add(place & 31), place >> 5)
+    }
+
+    /// A child that is a node.
+    #[inline(always)]
+    pub fn node(&self, child: usize) -> u32 {
+        let before = u32::from(self.inner_slots) & ((1 << ((child ^ self.octant) & 7)) - 1);
+        self.first_node.wrapping_add(before.count_ones())
+    }
+}
+
+/// Corner of a node's raster, and the axes' exponents; added to those of the reciprocals they make their products.
+#[target_feature(enable = "avx2")]
+#[inline]
+fn raster(frame: __m128) -> (__m128, __m128i) {
+    // The last lane is no number and may look like one that takes long to compute with.
+    let corner = _mm_blend_ps::<0b1000>(frame, _mm_setzero_ps());
+    let highest = _mm_set_epi32(-1, 0x0e80_8080, 0x0d80_8080, 0x0c80_8080);
+    let exponents = _mm_srli_epi32::<1>(_mm_shuffle_epi8(_mm_castps_si128(frame), highest));
+    (corner, exponents)
 }
 
 /// Which bytes go where, in a register.

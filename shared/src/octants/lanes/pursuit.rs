@@ -170,7 +170,8 @@ pub(super) fn pursue_one<T: TriangleTest, const ANY: bool>(scene: &Scene<'_>, ra
 /// # Panics
 /// Where a link of the scene leads nowhere.
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-#[inline]
+// Registers are allotted better to each way of searching by itself.
+#[inline(never)]
 pub(super) fn pursue<T: TriangleTest, const ANY: bool>(
     scene: &Scene<'_>,
     rays: &[Ray],

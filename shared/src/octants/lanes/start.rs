@@ -23,7 +23,7 @@ pub(super) struct Start {
 
 /// Largest size of a direction's components, but for zeros, that is prepared in lanes; the least is one over it. Of two
 /// within these bounds neither is negligible beside the other, and products with their reciprocals keep all their digits.
-const TAME: f32 = (1_u32 << 30) as f32;
+pub(super) const TAME: f32 = (1_u32 << 30) as f32;
 
 impl Start {
     /// Prepares a ray and takes it to the scene. None if it meets nothing.
