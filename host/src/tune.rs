@@ -15,9 +15,10 @@ use crate::progress::{Progress, silent};
 use crate::ray_sets::{RaySet, fitted};
 use crate::scene::{Scene, SceneError};
 use crate::structure::StructureOptions;
-use glam::UVec2;
+use glam::{UVec2, uvec2};
 use oktant_shared::parts::TraversalKind;
 use std::sync::Arc;
+use tracing::debug;
 
 /// Sizes of leaves of the octree, references.
 const LEAVES: [u32; 6] = [2, 4, 8, 12, 16, 24];
@@ -33,6 +34,16 @@ pub struct Plan {
     pub size: UVec2,
     /// Measurements of each time, of which the quickest counts.
     pub repeats: u32,
+}
+
+impl Plan {
+    /// Size of the picture where nobody says it: a real GPU is through with a smaller one before steps and tests count.
+    pub fn size_for(device: &Device) -> UVec2 {
+        match device {
+            Device::Gpu(gpu) if !gpu.is_software() => uvec2(1280, 968),
+            _ => uvec2(640, 484),
+        }
+    }
 }
 
 /// A profile, and how well it explains what was measured.
@@ -130,11 +141,16 @@ fn measured(
         let rays = set.rays.len() as f64;
         let samples = scenes.iter().zip(quickest).map(|(scene, milliseconds)| {
             let counts = count(scene, scene.parts, query, &set.rays);
-            Sample {
+            let sample = Sample {
                 nodes: counts.nodes as f64 / rays,
                 tests: counts.triangle_tests as f64 / rays,
                 time: milliseconds * 1e6 / rays,
-            }
+            };
+            debug!(
+                "{} {:?}: {:.3} steps, {:.3} tests, {:.4} ns",
+                scene.parts.traversal, set.kind, sample.nodes, sample.tests, sample.time
+            );
+            sample
         });
         groups.push(samples.collect());
     }

@@ -20,7 +20,7 @@ use spirv_std::spirv;
 /// Workgroups of a row of a dispatch over a list: devices allow 65,535 along an axis.
 const ROW: u32 = 32_768;
 /// Invocations of a workgroup.
-const GROUP: u32 = 64;
+const GROUP: u32 = 128;
 
 /// An entry point that looks at pixels: `$inputs` are its arguments beside the scene, `$body` what it does with `$frame` and
 /// `$world`.
@@ -30,7 +30,7 @@ macro_rules! pixels {
         $frame:ident $world:ident $body:block
     ) => {
         #[doc = $doc]
-        #[spirv(compute(threads(8, 8), entry_point_name = $entry))]
+        #[spirv(compute(threads(8, 16), entry_point_name = $entry))]
         pub fn $name(
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[UVec4],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] references: &[u32],

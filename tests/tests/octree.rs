@@ -58,14 +58,14 @@ fn work(subject: &Subject, scene: &Scene) -> [f64; 2] {
     sum
 }
 
-/// Nanoseconds of a ray, in the mean of the sets; of each the quickest of some times.
-fn time(subject: &Subject, scene: &Arc<Scene>, device: &Device) -> f64 {
+/// Nanoseconds of a ray of each set, of each the quickest of some times.
+fn times(subject: &Subject, scene: &Arc<Scene>, device: &Device) -> Vec<f64> {
     let tracer = device.with(scene).unwrap();
     let of_set = |set: &oktant::bench::JudgedSet| {
-        let times = tracer.time_cast(scene.parts, set.kind.query(), &set.rays, 7).unwrap();
+        let times = tracer.time_cast(scene.parts, set.kind.query(), &set.rays, 15).unwrap();
         times.into_iter().fold(f64::INFINITY, f64::min) * 1e6 / set.rays.len() as f64
     };
-    subject.sets.iter().map(of_set).sum::<f64>() / subject.sets.len() as f64
+    subject.sets.iter().map(of_set).collect()
 }
 
 /// All octrees of [`DEPTHS`] and [`LEAVES`].
@@ -150,10 +150,13 @@ fn the_model_comes_near_the_best_on_large_meshes() {
     check(&split(&reference("meshes/dragon-202k.ply"), size));
 }
 
-/// Prints how much longer than by the quickest of all limits rays take by the model, with the constants that are shipped and
-/// with those that `oktant tune` finds.
+/// Prints how much longer than by the quickest of all limits rays take by the model, in the mean of the sets and in each, with
+/// the constants that are shipped and with those that `oktant tune` finds; of the meshes in whose names `OKTANT_MESH` is.
 fn measure(device: &Device, size: UVec2) {
-    let plan = Plan { size, repeats: 5 };
+    let plan = Plan {
+        size: Plan::size_for(device),
+        repeats: 5,
+    };
     let tuned = tune(device, &plan, &silent).unwrap().profile.octree;
     println!(
         "{}: a leaf counts {:.2} triangle tests",
@@ -169,23 +172,25 @@ fn measure(device: &Device, size: UVec2) {
         split("bunny".as_ref(), size),
         split(&dragon, size),
     ];
-    for subject in &subjects {
-        let all = limits().map(|options| (time(subject, &scene(subject, options), device), options));
-        let (least, options) = all.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+    let wanted = std::env::var("OKTANT_MESH").unwrap_or_default();
+    for subject in subjects.iter().filter(|subject| subject.name.contains(&wanted)) {
+        let time = |octree| times(subject, &scene(subject, octree), device);
+        let mean = |times: &[f64]| times.iter().sum::<f64>() / times.len() as f64;
+        let all = limits().map(|options| (time(options.clone()), options));
+        let (least, options) = all.min_by(|a, b| mean(&a.0).total_cmp(&mean(&b.0))).unwrap();
         let of = |costs| {
-            let scene = scene(
-                subject,
-                OctreeOptions {
-                    costs,
-                    ..OctreeOptions::default()
-                },
-            );
-            let references = scene.references.len() as f64 / subject.mesh.triangles.len() as f64;
-            format!("{:.3}, {references:.1}", time(subject, &scene, device) / least)
+            let own = time(OctreeOptions {
+                costs,
+                ..OctreeOptions::default()
+            });
+            let by_set = own.iter().zip(&least).map(|(own, least)| format!("{:.3}", own / least));
+            let by_set: Vec<_> = by_set.collect();
+            format!("{:.3}, {}", mean(&own) / mean(&least), by_set.join(" "))
         };
         println!(
-            "| {} | {least:.2} ns, {} | {} | {} |",
+            "| {} | {:.2} ns, {} | {} | {} |",
             subject.name,
+            mean(&least),
             said(&options),
             of(Costs::OCTREE),
             of(tuned)
@@ -197,7 +202,7 @@ fn measure(device: &Device, size: UVec2) {
 #[test]
 #[ignore = "measures times, for which nothing else must run"]
 fn the_model_is_measured() {
-    measure(&Device::Cpu, uvec2(320, 242));
+    measure(&Device::Cpu, uvec2(640, 484));
 }
 
 /// The same on a GPU, which tells small pictures apart no more.
@@ -209,7 +214,7 @@ fn the_model_is_measured_on_a_gpu() {
         module: ModulePath::Auto,
         kernel: None,
     };
-    measure(&Device::Gpu(Arc::new(Gpu::open(&options).unwrap())), uvec2(640, 484));
+    measure(&Device::Gpu(Arc::new(Gpu::open(&options).unwrap())), uvec2(1280, 968));
 }
 
 /// A hard limit that the model alone would exceed.

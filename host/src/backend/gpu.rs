@@ -8,6 +8,7 @@ mod layouts;
 mod probe;
 mod readback;
 mod resources;
+mod wakefulness;
 
 pub use device::{Gpu, GpuOptions};
 pub use kernel::Kernel;
@@ -23,7 +24,7 @@ use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use glam::{Vec4, uvec2};
-use layouts::CHOOSE;
+use layouts::{CHOOSE, workgroup};
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
 use oktant_shared::parts::Parts;
@@ -32,7 +33,7 @@ use oktant_shared::render::sample_ray;
 use oktant_shared::trace::nearest_plane;
 use readback::Timer;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Renders on a GPU with a scene that lies in its memory.
 pub struct GpuBackend {
@@ -45,7 +46,7 @@ const RAYS_PER_DISPATCH: u64 = 1 << 24;
 /// The same for camera rays that have trees of rays.
 const TREES_PER_DISPATCH: u64 = 1 << 21;
 
-/// Edge of the workgroups of the entry points that look at pixels.
+/// Width of the workgroups of the entry points that look at pixels, which are twice as high, and edge of the one that chooses.
 const TILE: u32 = 8;
 /// Size of the workgroups of the entry points that take an array.
 const LINE: u32 = 64;
@@ -87,7 +88,7 @@ impl GpuBackend {
         } else {
             adaptive::passes(frame, frame.most_samples)
         };
-        timed(repeats, || {
+        self.timed(repeats, || {
             self.gpu.forget(&picture);
             let mut encoder = self.gpu.encoder();
             self.gpu
@@ -111,16 +112,18 @@ impl GpuBackend {
             timer.finish(&self.gpu, encoder)
         };
         let in_pieces = || cast.pieces.iter().map(|piece| time(piece, 1)).sum::<Result<f64, _>>();
-        let start = Instant::now();
-        let mut milliseconds = in_pieces()?;
-        // Idle until now, a device is slower than it will be.
-        while start.elapsed() < WARM_UP {
-            milliseconds = in_pieces()?;
-        }
-        if milliseconds > WHOLE {
+        if self.gpu.awake(in_pieces)? > WHOLE {
             return measured(repeats, MEASURING, in_pieces);
         }
-        timed(repeats, || Ok(time(&cast.whole, AT_ONCE)? / f64::from(AT_ONCE)))
+        self.timed(repeats, || Ok(time(&cast.whole, AT_ONCE)? / f64::from(AT_ONCE)))
+    }
+
+    /// Measures `repeats` times, after as many that do not count as the device needs to wake up.
+    fn timed(&self, repeats: u32, once: impl Fn() -> Result<f64, BackendError>) -> Result<Vec<f64>, BackendError> {
+        self.gpu.awake(&once)?;
+        let times = (0..repeats).map(|_| once()).collect();
+        self.gpu.wakefulness.was_busy();
+        times
     }
 
     /// What the first sample of each pixel sees, with rays made by the host: the entry point for it has the default parts.
@@ -158,8 +161,8 @@ impl GpuBackend {
         let (width, height) = frame.size().into();
         let (budget, samples) = self.budget(frame, frame.sample_count);
         // Whole workgroups: a row of the next band must not be added twice.
-        let rows = (budget / u64::from(width.max(1) * samples)) as u32 / TILE * TILE;
-        let rows = rows.clamp(TILE, height.next_multiple_of(TILE));
+        let rows = (budget / u64::from(width.max(1) * samples)) as u32 / (2 * TILE) * (2 * TILE);
+        let rows = rows.clamp(2 * TILE, height.next_multiple_of(2 * TILE));
         let mut bands = Vec::new();
         for first_sample in (0..frame.sample_count).step_by(samples as usize) {
             for first_row in (0..height).step_by(rows as usize) {
@@ -235,19 +238,6 @@ impl GpuBackend {
             hits,
         })
     }
-}
-
-/// A device that has been idle takes so long to reach its clock again.
-const WARM_UP: Duration = Duration::from_millis(300);
-
-/// Measures `repeats` times, after as many that do not count as the device needs to wake up.
-fn timed(repeats: u32, once: impl Fn() -> Result<f64, BackendError>) -> Result<Vec<f64>, BackendError> {
-    let start = Instant::now();
-    once()?;
-    while start.elapsed() < WARM_UP {
-        once()?;
-    }
-    (0..repeats).map(|_| once()).collect()
 }
 
 /// An array of rays in the device's memory.
@@ -341,7 +331,8 @@ impl Backend for GpuBackend {
             pass.set_bind_group(1, &frame, &[]);
             pass.set_bind_group(2, &group, &[]);
             pass.set_bind_group(3, &self.scene.appearance, &[]);
-            pass.dispatch_workgroups(width.div_ceil(TILE), height.div_ceil(TILE), 1);
+            let [across, down, _] = workgroup("hits");
+            pass.dispatch_workgroups(width.div_ceil(across), height.div_ceil(down), 1);
         }
         gpu.queue.submit([encoder.finish()]);
         gpu.read(&hits)
@@ -409,7 +400,6 @@ impl Gpu {
             debug_assert_eq!(frame.size(), uvec2(picture.width, picture.height));
             debug_assert!(frame.most_samples == 0 || picture.is_adaptive());
             let frame_group = self.frame_group(frame);
-            let (columns, lines) = (picture.width.div_ceil(TILE), rows.div_ceil(TILE));
             let is_first = number == 0;
             let makes_list = adaptive::makes_list(frame);
             if makes_list {
@@ -422,7 +412,7 @@ impl Gpu {
                 pass.set_pipeline(&choose);
                 pass.set_bind_group(1, &frame_group, &[]);
                 pass.set_bind_group(2, &picture.choice, &[]);
-                pass.dispatch_workgroups(columns, picture.height.div_ceil(TILE), 1);
+                pass.dispatch_workgroups(picture.width.div_ceil(TILE), picture.height.div_ceil(TILE), 1);
             }
             let is_last = number + 1 == passes.len();
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
@@ -434,11 +424,12 @@ impl Gpu {
             pass.set_bind_group(1, &frame_group, &[]);
             pass.set_bind_group(2, &picture.group, &[]);
             pass.set_bind_group(3, &scene.appearance, &[]);
+            let [across, down, _] = workgroup(scene.entry);
             if frame.is_listed == 0 {
-                pass.dispatch_workgroups(columns, lines, 1);
+                pass.dispatch_workgroups(picture.width.div_ceil(across), rows.div_ceil(down), 1);
             } else {
                 // Most find nothing to do, which takes less than asking first how many are needed.
-                let workgroups = (picture.width * rows).div_ceil(TILE * TILE);
+                let workgroups = (picture.width * rows).div_ceil(across * down);
                 pass.dispatch_workgroups(workgroups.min(LINES_PER_ROW), workgroups.div_ceil(LINES_PER_ROW), 1);
             }
         }

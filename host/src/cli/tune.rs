@@ -17,8 +17,9 @@ pub fn run(arguments: &TuneArguments) -> Result<(), Failure> {
     let Some(device) = devices(&arguments.engine)?.pop() else {
         return Err(Failure::usage("There is nothing to measure; give --backend cpu."));
     };
+    let size = arguments.size.map(|size| uvec2(size.width, size.height));
     let plan = Plan {
-        size: uvec2(arguments.size.width, arguments.size.height),
+        size: size.unwrap_or_else(|| Plan::size_for(&device)),
         repeats: arguments.repeat,
     };
     let bar = ProgressBar::new();
@@ -27,7 +28,7 @@ pub fn run(arguments: &TuneArguments) -> Result<(), Failure> {
     let profile = &tuning.profile;
     let line = |name: &str, costs: &Costs, shipped: &Costs, residual: f64| {
         format!(
-            "{name}: a step {:.2} ns, a triangle test {:.2} ns, a test is {:.2} steps ({:.2} without a profile); times are \
+            "{name}: a step {:.3} ns, a triangle test {:.3} ns, a test is {:.2} steps ({:.2} without a profile); times are \
              explained but for {:.1} %\n",
             costs.node,
             costs.triangle,

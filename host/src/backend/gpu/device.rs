@@ -4,6 +4,7 @@ use super::kernel::Kernel;
 use super::kernel_error::KernelError;
 use super::kernel_module::{ModulePath, create_module, is_passed_through};
 use super::layouts::{Layouts, compute_pipeline};
+use super::wakefulness::Wakefulness;
 use crate::backend::BackendError;
 use oktant_shared::variant::Variant;
 use std::collections::HashMap;
@@ -41,6 +42,7 @@ pub struct Gpu {
     parts: OnceLock<wgpu::ShaderModule>,
     pipelines: Mutex<HashMap<&'static str, Arc<wgpu::ComputePipeline>>>,
     failure: Arc<Mutex<Option<String>>>,
+    pub(super) wakefulness: Wakefulness,
 }
 
 impl Gpu {
@@ -147,6 +149,7 @@ impl Gpu {
             parts: OnceLock::new(),
             kernel,
             pipelines: Mutex::default(),
+            wakefulness: Wakefulness::default(),
             failure,
         };
         // The one that most need, so that a driver that cannot is found out now.
@@ -198,6 +201,7 @@ impl Gpu {
             parts: OnceLock::new(),
             kernel,
             pipelines: Mutex::default(),
+            wakefulness: Wakefulness::default(),
             failure: self.failure.clone(),
         })
     }

@@ -89,8 +89,8 @@ pub fn compute_pipeline(
 /// Invocations in a workgroup of an entry point, as the host launches it.
 pub fn workgroup(entry: &str) -> [u32; 3] {
     match entry {
-        "hits" | CHOOSE => [TILE, TILE, 1],
-        _ if entry.starts_with(RENDER) => [TILE, TILE, 1],
+        CHOOSE => [TILE, TILE, 1],
+        _ if entry == "hits" || entry.starts_with(RENDER) => [TILE, 2 * TILE, 1],
         _ => [LINE, 1, 1],
     }
 }
