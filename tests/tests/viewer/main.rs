@@ -4,11 +4,14 @@
 
 #![cfg(test)]
 
+mod failures;
 mod files;
+mod large;
 mod look;
 mod oracle;
 mod panel;
 mod saves;
+mod several;
 mod sight;
 mod start;
 mod window;
