@@ -210,7 +210,12 @@ impl GpuScreen {
 /// Does something on a device that may be lost while it is done: wgpu panics then in places.
 fn sound<T>(gpu: &Gpu, work: impl FnOnce() -> Result<T, ScreenError>) -> Result<T, ScreenError> {
     gpu.check()?;
-    caught(work).unwrap_or_else(|accident| Err(ScreenError::Backend(gpu.failed_by(&accident))))
+    let done = caught(work).unwrap_or_else(|accident| Err(ScreenError::Backend(gpu.failed_by(&accident))));
+    if matches!(done, Err(ScreenError::Surface(_))) {
+        // Of a lost device, surfaces cannot be drawn on either.
+        gpu.check_again()?;
+    }
+    done
 }
 
 fn surface(window: &Arc<Window>, gpu: &Gpu) -> Result<wgpu::Surface<'static>, ScreenError> {

@@ -6,7 +6,6 @@
 
 mod failures;
 mod files;
-mod large;
 mod look;
 mod oracle;
 mod panel;

@@ -284,6 +284,12 @@ impl Gpu {
         polled.map_err(|reason| self.failed(&reason))
     }
 
+    /// As [`Gpu::check`], where the device may have been lost without telling it yet.
+    pub(crate) fn check_again(&self) -> Result<(), BackendError> {
+        self.find_out();
+        self.check()
+    }
+
     /// Lets the device tell that it is lost, if it is: it does so only once all that it was given is over.
     fn find_out(&self) {
         drop(self.polled(wgpu::PollType::Wait {
@@ -308,8 +314,7 @@ impl Gpu {
 
     /// That something panicked while it worked, unless that was because the device is lost.
     pub(crate) fn failed_by(&self, accident: &Accident) -> BackendError {
-        self.find_out();
-        match self.check() {
+        match self.check_again() {
             Err(error @ BackendError::Lost { .. }) => error,
             _ => self.failed(&format!(
                 "by a mistake in oktant or its driver: {accident}; please report it"
