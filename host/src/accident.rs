@@ -1,10 +1,11 @@
 //! Panics, as something to be told in a sentence.
 
 use std::any::Any;
+use std::cell::Cell;
 use std::fmt;
 use std::panic::{self, AssertUnwindSafe, PanicHookInfo};
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, Once, PoisonError};
 
 /// Where the last panic began: whoever catches one gets its message, but not its place.
 static PLACE: Mutex<Option<String>> = Mutex::new(None);
@@ -60,6 +61,29 @@ pub fn caught_silently<T>(work: impl FnOnce() -> T) -> Result<T, Accident> {
     panic::set_hook(Box::new(|_| {}));
     let result = caught(work);
     panic::set_hook(hook);
+    result
+}
+
+thread_local! {
+    /// Whether panics of this thread are expected.
+    static IS_QUIET: Cell<bool> = const { Cell::new(false) };
+}
+
+/// As [`caught`], for calls that panic on this very thread where they should return an error: that prints nothing. It may be
+/// called often, and by many threads at once.
+pub fn caught_quietly<T>(work: impl FnOnce() -> T) -> Result<T, Accident> {
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let hook = panic::take_hook();
+        panic::set_hook(Box::new(move |info| {
+            if !IS_QUIET.get() {
+                hook(info);
+            }
+        }));
+    });
+    let was_quiet = IS_QUIET.replace(true);
+    let result = caught(work);
+    IS_QUIET.set(was_quiet);
     result
 }
 

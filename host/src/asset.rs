@@ -21,6 +21,8 @@ pub struct Asset {
     pub material_ids: Vec<u32>,
     /// Empty where the file gives none.
     pub materials: Vec<Material>,
+    /// What the file calls them.
+    pub names: Names,
     /// What materials refer to.
     pub textures: Vec<Texture>,
     /// The texels of all images.
@@ -94,7 +96,7 @@ impl Asset {
         Setting {
             model,
             view,
-            names: Names::default(),
+            names: self.names,
             size: None,
             files: self.files,
         }

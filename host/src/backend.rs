@@ -86,6 +86,29 @@ pub enum BackendError {
         /// Name of the adapter.
         adapter: String,
     },
+    /// The device's memory is full.
+    #[error(
+        "The memory of {adapter}, which binds at most {limit} bytes at once, has no room for the {what}, {bytes} bytes; close \
+         what else uses it, or use --traversal compact or --backend cpu, or a smaller mesh or picture."
+    )]
+    OutOfMemory {
+        /// Which array, in the plural.
+        what: &'static str,
+        /// Its size.
+        bytes: u64,
+        /// The largest size of a storage binding.
+        limit: u64,
+        /// Name of the adapter.
+        adapter: String,
+    },
+    /// The device is gone, with all that lay in its memory.
+    #[error("The GPU {adapter} was lost ({reason}); try again, or use --backend cpu.")]
+    Lost {
+        /// Name of the adapter.
+        adapter: String,
+        /// What the driver says.
+        reason: String,
+    },
     /// The kernel that was asked for cannot be run.
     #[error(transparent)]
     Kernel(#[from] KernelError),
@@ -110,7 +133,22 @@ pub enum BackendError {
 impl BackendError {
     /// What went wrong, in one sentence, where the CPU steps in.
     pub fn and_the_cpu_renders(&self) -> String {
-        let what = match self {
+        format!("{}: the CPU renders.", self.what())
+    }
+
+    /// Whether triangles as indices, which take less memory, may be of help.
+    pub fn is_about_triangles(&self) -> bool {
+        match self {
+            BackendError::TooLarge { what, .. } | BackendError::OutOfMemory { what, .. } => {
+                ["nodes", "references", "triangles", "triangle ids", "vertices"].contains(what)
+            }
+            _ => false,
+        }
+    }
+
+    /// What went wrong, without what to do.
+    pub fn what(&self) -> String {
+        match self {
             BackendError::NoAdapter(reason) => format!("There is no GPU to use ({reason})"),
             BackendError::NoDevice { adapter, reason } => {
                 format!("The GPU {adapter} could not be opened ({reason})")
@@ -121,12 +159,20 @@ impl BackendError {
                 limit,
                 adapter,
             } => format!("The {what} take {bytes} bytes and {adapter} binds at most {limit} at once"),
+            BackendError::OutOfMemory {
+                what,
+                bytes,
+                limit,
+                adapter,
+            } => format!(
+                "The memory of {adapter}, which binds at most {limit} bytes at once, has no room for the {what}, {bytes} bytes"
+            ),
+            BackendError::Lost { adapter, reason } => format!("The GPU {adapter} was lost ({reason})"),
             BackendError::Failed { adapter, reason } => format!("The GPU {adapter} failed ({reason})"),
             BackendError::Parts(parts) => format!("The GPU has no {parts}"),
             BackendError::Kernel(error) => error.to_string().trim_end_matches('.').into(),
             BackendError::KernelWithoutGpu(reason) => format!("There is no GPU for the kernel ({reason})"),
-        };
-        format!("{what}: the CPU renders.")
+        }
     }
 }
 

@@ -121,6 +121,7 @@ fn parse_file(bytes: &[u8], name: &str, folder: Option<&Path>, progress: Progres
     asset.textures = images.textures;
     asset.texels = images.texels;
     asset.materials = palette.materials;
+    asset.names.materials = palette.names;
     asset.complete_coordinates();
     notices.tell(name);
     Ok(asset)

@@ -16,6 +16,7 @@ pub mod compare;
 pub mod costs;
 pub mod effort;
 mod excerpt;
+pub mod gathering;
 pub mod generated;
 pub mod gltf;
 pub mod grid;

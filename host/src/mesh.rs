@@ -4,8 +4,12 @@ use std::f64::consts::PI;
 
 use crate::model::Focus;
 use glam::{DVec3, Vec2, Vec3};
+use oktant_shared::plane::PLANE;
 use oktant_shared::triangle::Triangle;
 use rayon::prelude::*;
+
+/// Triangles and vertices have at most so many ids.
+pub const MOST: usize = PLANE as usize;
 
 /// Indexed triangles with optional normals, colours and texture coordinates per vertex.
 ///
@@ -74,6 +78,33 @@ impl Mesh {
             center: (low + high) / 2.0,
             radius: if radius > 0.0 { radius } else { 1.0 },
         }
+    }
+
+    /// Adds another mesh with normals to one that has some. Where only one of them has colours or texture coordinates, the
+    /// vertices of the other one are white, or at (0, 0). Both must have the same [`Mesh::shift`], and no more than
+    /// [`MOST`] vertices together.
+    pub(crate) fn append(&mut self, mesh: Mesh) {
+        let first = self.positions.len();
+        let count = first + mesh.positions.len();
+        if !mesh.colors.is_empty() || !self.colors.is_empty() {
+            self.colors.resize(first, [255; 4]);
+            self.colors.extend(mesh.colors);
+            self.colors.resize(count, [255; 4]);
+        }
+        if !mesh.coordinates.is_empty() || !self.coordinates.is_empty() {
+            self.coordinates.resize(first, Vec2::ZERO);
+            self.coordinates.extend(mesh.coordinates);
+            self.coordinates.resize(count, Vec2::ZERO);
+        }
+        self.positions.extend(mesh.positions);
+        self.normals.extend(mesh.normals);
+        // Ids beyond the range are refused by who asked for this.
+        let first = first as u32;
+        self.triangles.extend(
+            mesh.triangles
+                .iter()
+                .map(|corners| corners.map(|corner| corner.wrapping_add(first))),
+        );
     }
 
     /// Computes the vertex normals that are missing: all if [`Mesh::normals`] is empty, else those that are zero.

@@ -63,6 +63,14 @@ impl MeshSource {
         }
     }
 
+    /// What it is called where its folder does not matter.
+    pub fn name(&self) -> String {
+        match self {
+            MeshSource::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into(),
+            built_in => built_in.to_string(),
+        }
+    }
+
     /// Loads the mesh alone, without what its file says of materials, lights and cameras; where it has no normals, they are
     /// computed from its faces.
     ///

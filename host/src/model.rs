@@ -68,6 +68,19 @@ pub fn needs_coordinates(material: &Material) -> bool {
     material.texture != NO_TEXTURE || material.bump != NO_TEXTURE
 }
 
+/// A material whose textures begin with the index `first`.
+pub(crate) fn retextured(material: &Material, first: u32) -> Material {
+    let moved = |texture: u32| match texture {
+        NO_TEXTURE => NO_TEXTURE,
+        texture => texture + first,
+    };
+    Material {
+        texture: moved(material.texture),
+        bump: moved(material.bump),
+        ..*material
+    }
+}
+
 /// The colour of meshes that have none, linear RGB.
 pub const CLAY: Vec3 = Vec3::new(0.62, 0.58, 0.53);
 

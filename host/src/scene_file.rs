@@ -32,11 +32,11 @@ pub(crate) use number::{
 };
 
 use crate::build_error::BuildError;
+use crate::mesh::MOST;
 use crate::progress::Progress;
 use crate::scene::SceneError;
 use crate::source::Setting;
 use crate::toml_file::{Subject, TomlFileError};
-use assembly::MOST;
 use description::Description;
 use folder::Folder;
 use std::path::{Path, PathBuf};

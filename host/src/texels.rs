@@ -162,6 +162,26 @@ pub fn add_heights(image: &DynamicImage, texels: &mut Vec<u32>) -> Result<Textur
 }
 
 /// The texture whose texels are to be added next.
+/// Adds textures and the texels that they refer to to others; returns the index of the first.
+///
+/// # Errors
+/// [`TooManyTexels`], and nothing is added then.
+pub fn append(
+    (all_textures, all_texels): (&mut Vec<Texture>, &mut Vec<u32>),
+    (textures, texels): (&[Texture], &[u32]),
+) -> Result<u32, TooManyTexels> {
+    let (first, first_texel) = (all_textures.len() as u32, all_texels.len());
+    if first_texel + texels.len() > MOST_TEXELS {
+        return Err(TooManyTexels(MOST_TEXELS));
+    }
+    all_texels.extend_from_slice(texels);
+    all_textures.extend(textures.iter().map(|own| Texture {
+        first: own.first + first_texel as u32,
+        ..*own
+    }));
+    Ok(first)
+}
+
 fn texture(image: &DynamicImage, kind: u32, texels: &[u32]) -> Result<Texture, TooManyTexels> {
     let (width, height) = (image.width(), image.height());
     if texels.len() + width as usize * height as usize > MOST_TEXELS {

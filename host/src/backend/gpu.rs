@@ -1,6 +1,8 @@
 //! The GPU back end: the kernel compiled to SPIR-V, run by wgpu.
 
 mod device;
+mod failure;
+mod hardship;
 mod kernel;
 mod kernel_error;
 mod kernel_module;

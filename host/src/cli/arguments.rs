@@ -256,7 +256,9 @@ pub struct InfoArguments {
 #[derive(Debug, Default, Args)]
 pub struct MeshArguments {
     /// A scene file (TOML), a mesh file (glTF, OBJ, PLY, STL, PTRI or MSH1), or one of the built-in meshes `bunny`, `balls` and `stadium` [default: bunny].
-    pub mesh: Option<PathBuf>,
+    /// Several meshes are shown in one scene, as they lie.
+    #[arg(value_name = "MESH")]
+    pub meshes: Vec<PathBuf>,
     #[command(flatten)]
     pub structure: StructureArguments,
 }

@@ -43,7 +43,7 @@ pub fn run(arguments: &CastArguments) -> Result<(), Failure> {
         });
     }
     let mesh = MeshArguments {
-        mesh: Some(arguments.mesh.clone()),
+        meshes: vec![arguments.mesh.clone()],
         structure: arguments.structure.clone(),
     };
     let loaded = mesh.load()?;

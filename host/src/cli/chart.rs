@@ -102,7 +102,7 @@ fn plan(arguments: &ChartArguments, mut sources: Vec<Source>) -> Result<Plan, Fa
 fn mesh(source: &Source) -> Option<&MeshSource> {
     match source {
         Source::Mesh(mesh) => Some(mesh),
-        Source::Scene(_) => None,
+        Source::Several(_) | Source::Scene(_) => None,
     }
 }
 
@@ -165,7 +165,7 @@ fn kinds_and_sources(what: &[String]) -> Result<(Vec<ChartKind>, Vec<Source>), F
 fn is_same(one: &Source, other: &Source) -> bool {
     let file = |source: &Source| match source {
         Source::Mesh(MeshSource::File(path)) | Source::Scene(path) => path.canonicalize().ok(),
-        Source::Mesh(_) => None,
+        Source::Mesh(_) | Source::Several(_) => None,
     };
     one == other || file(one).is_some_and(|path| file(other) == Some(path))
 }

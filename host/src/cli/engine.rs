@@ -1,5 +1,6 @@
 //! Choosing what renders.
 
+use super::Failure;
 use oktant::backend::cpu::Cpu;
 use oktant::backend::gpu::{Gpu, GpuBackend, GpuOptions};
 use oktant::backend::{Backend, BackendChoice, BackendError, Query};
@@ -20,6 +21,13 @@ pub struct EngineOptions {
     pub gpu: GpuOptions,
 }
 
+impl EngineOptions {
+    /// Whether the CPU may render what a GPU cannot: a kernel cannot do without one.
+    fn may_fall_back(&self) -> bool {
+        self.choice == BackendChoice::Auto && self.gpu.kernel.is_none()
+    }
+}
+
 /// A back end with a scene.
 pub struct Engine {
     kind: Kind,
@@ -35,25 +43,58 @@ enum Kind {
 impl Engine {
     /// The back end that the options choose. `auto` says why where it does not take a GPU; a kernel needs one.
     pub fn new(options: &EngineOptions, scene: &Arc<Scene>) -> Result<Self, BackendError> {
-        let gpu = || {
-            let gpu = Gpu::open(&options.gpu)?;
-            GpuBackend::new(Arc::new(gpu), scene).map(Kind::Gpu)
-        };
-        let may_fall_back = options.choice == BackendChoice::Auto && options.gpu.kernel.is_none();
-        let mut engine = Engine {
-            kind: Kind::Cpu(Cpu::new(scene.clone())),
-            fallback: may_fall_back.then(|| scene.clone()),
-        };
-        match options.choice {
-            BackendChoice::Cpu => {}
-            BackendChoice::Auto if may_fall_back => match gpu() {
-                Ok(gpu) => engine.kind = gpu,
-                Err(error) => eprintln!("{}", error.and_the_cpu_renders()),
-            },
-            BackendChoice::Auto | BackendChoice::Gpu => engine.kind = gpu()?,
+        Self::chosen(options, scene).or_else(|error| Self::instead(options, scene, error))
+    }
+
+    /// As [`Engine::new`]; but where `auto` finds that the triangles of a scene with the default parts are too large for the
+    /// GPU, they become indices, in the scene that `compact` makes. Returns the scene that is rendered, too.
+    pub fn of_any_size(
+        options: &EngineOptions,
+        scene: &Arc<Scene>,
+        compact: impl FnOnce() -> Result<Scene, Failure>,
+    ) -> Result<(Self, Arc<Scene>), Failure> {
+        match Self::chosen(options, scene) {
+            Ok(engine) => Ok((engine, scene.clone())),
+            Err(error) if options.may_fall_back() && error.is_about_triangles() && scene.parts == Parts::STANDARD => {
+                eprintln!(
+                    "{}: the structure is built anew with triangles as indices.",
+                    error.what()
+                );
+                let scene = Arc::new(compact()?);
+                Ok((Self::new(options, &scene)?, scene))
+            }
+            Err(error) => Ok((Self::instead(options, scene, error)?, scene.clone())),
         }
+    }
+
+    /// What the options choose, if it can be had.
+    fn chosen(options: &EngineOptions, scene: &Arc<Scene>) -> Result<Self, BackendError> {
+        let kind = match options.choice {
+            BackendChoice::Cpu => Kind::Cpu(Cpu::new(scene.clone())),
+            BackendChoice::Auto | BackendChoice::Gpu => {
+                let gpu = Gpu::open(&options.gpu)?;
+                Kind::Gpu(GpuBackend::new(Arc::new(gpu), scene)?)
+            }
+        };
+        Ok(Self::of(kind, options, scene))
+    }
+
+    /// The CPU, where nobody insisted on the GPU that cannot be had.
+    fn instead(options: &EngineOptions, scene: &Arc<Scene>, error: BackendError) -> Result<Self, BackendError> {
+        if !options.may_fall_back() {
+            return Err(error);
+        }
+        eprintln!("{}", error.and_the_cpu_renders());
+        Ok(Self::of(Kind::Cpu(Cpu::new(scene.clone())), options, scene))
+    }
+
+    fn of(kind: Kind, options: &EngineOptions, scene: &Arc<Scene>) -> Self {
+        let engine = Engine {
+            kind,
+            fallback: options.may_fall_back().then(|| scene.clone()),
+        };
         tracing::info!("rendered by {}", engine.name());
-        Ok(engine)
+        engine
     }
 
     /// What it runs on, for people.

@@ -23,7 +23,7 @@ pub fn run(arguments: &RenderArguments, range: &FrameRange) -> Result<(), Failur
         look,
         ..
     } = arguments;
-    look.check(&mesh.source())?;
+    look.check(&mesh.source()?)?;
     let sequence = Sequence::new(files, frames, look, range)?;
     files.check_standard_output(arguments.json)?;
     let path = frames.camera_path()?;
@@ -31,8 +31,8 @@ pub fn run(arguments: &RenderArguments, range: &FrameRange) -> Result<(), Failur
     // First of all, so that nobody waits for pictures that cannot be stored.
     sequence.check(*range.wanted.start(), look.asks_for_pair())?;
     let variant = arguments.variant.map(|variant| variant.0);
-    let prepared = Prepared::load(mesh, arguments.size, look, variant)?;
-    let mut engine = Engine::new(&engine, &prepared.scene)?;
+    let mut prepared = Prepared::load(mesh, arguments.size, look, variant)?;
+    let mut engine = prepared.engine(mesh, &engine)?;
     let kept = if frames.overwrite {
         Vec::new()
     } else {

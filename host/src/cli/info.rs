@@ -21,7 +21,7 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let mut line = |name: &str, value: String| {
         writeln!(text, "{name:<12} {value}").expect("a string can be written to");
     };
-    line("mesh", arguments.mesh.source().to_string());
+    line("mesh", arguments.mesh.source()?.to_string());
     line(
         "triangles",
         format!(

@@ -15,7 +15,7 @@ use std::time::Instant;
 /// Asks the pixels of a picture, writes what they tell into a file, and says what it is.
 pub fn run(arguments: &RenderArguments, aspect: Aspect) -> Result<(), Failure> {
     let RenderArguments { mesh, files, look, .. } = arguments;
-    look.check(&mesh.source())?;
+    look.check(&mesh.source()?)?;
     let format = format(arguments, aspect)?;
     files.check_standard_output(arguments.json)?;
     let file = if files.is_standard_output() {

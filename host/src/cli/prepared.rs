@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::arguments::{LookArguments, MeshArguments, Size};
-use super::engine::Engine;
+use super::engine::{Engine, EngineOptions};
 use super::render::check_halves;
 use oktant::aov::Aov;
 use oktant::effort::Effort;
@@ -24,6 +24,8 @@ pub struct Prepared {
     pub view: View,
     pub size: Size,
     pub triangles: usize,
+    /// Whether the scene is rendered by the variant of the kernel that was asked for.
+    has_variant: bool,
 }
 
 /// A picture, and what it took.
@@ -61,7 +63,22 @@ impl Prepared {
             view,
             size,
             triangles: loaded.triangles,
+            has_variant: variant.is_some(),
         })
+    }
+
+    /// What renders it. Where that is a GPU that was not insisted on, and the triangles are too large for it, the scene is
+    /// loaded once more, with triangles as indices; variants of the kernel have none.
+    ///
+    /// # Errors
+    /// Of a GPU that was insisted on, and of a scene that cannot be loaded any more.
+    pub fn engine(&mut self, mesh: &MeshArguments, options: &EngineOptions) -> Result<Engine, Failure> {
+        if self.has_variant {
+            return Ok(Engine::new(options, &self.scene)?);
+        }
+        let (engine, scene) = Engine::of_any_size(options, &self.scene, || Ok(mesh.compact().load()?.scene))?;
+        self.scene = scene;
+        Ok(engine)
     }
 
     /// Whether each eye's picture is a file of its own.

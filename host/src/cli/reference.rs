@@ -21,7 +21,7 @@ pub fn run(arguments: &RenderArguments, takes: Takes) -> Result<(), Failure> {
              give --reference alone.",
         ));
     }
-    let source = mesh.source();
+    let source = mesh.source()?;
     look.check(&source)?;
     if look.samples.is_some_and(|count| count.adaptive) {
         return Err(Failure::usage(

@@ -3,7 +3,6 @@
 use super::Failure;
 use super::arguments::{EngineArguments, FileArguments, LookArguments, MeshArguments, RenderArguments, Size};
 use super::cells;
-use super::engine::Engine;
 use super::frames;
 use super::prepared::{Prepared, is_pair};
 use super::progress_bar::ProgressBar;
@@ -47,18 +46,18 @@ pub struct Order<'a> {
 /// Renders a picture into its files and says what was done.
 pub fn render(order: &Order<'_>) -> Result<(), Failure> {
     let Order { mesh, files, look, .. } = order;
-    look.check(&mesh.source())?;
+    look.check(&mesh.source()?)?;
     let format = format(files, look)?;
     files.check_standard_output(order.json)?;
     let engine = order.engine.options()?;
     let aovs = files.aov.0.as_slice();
     // First of all, so that nobody waits for a picture that cannot be stored.
     let mut output = create(files, format, look.asks_for_pair())?;
-    let prepared = Prepared::load(mesh, order.size, look, order.variant)?;
+    let mut prepared = Prepared::load(mesh, order.size, look, order.variant)?;
     output = for_view(output, &prepared.view, |is_pair| create(files, format, is_pair))?;
     let frame = prepared.frame(&prepared.view);
     let output = output.under(cells::layer(files, &prepared.scene, &frame)?);
-    let mut engine = Engine::new(&engine, &prepared.scene)?;
+    let mut engine = prepared.engine(mesh, &engine)?;
     let bar = ProgressBar::new();
     let rendered = prepared.render(&mut engine, &prepared.view, aovs, &|stage, fraction| {
         bar.show(stage, fraction);

@@ -1,13 +1,14 @@
 //! Where the scene comes from.
 
 use super::Failure;
-use super::arguments::MeshArguments;
+use super::arguments::{MeshArguments, StructureArguments};
 use super::progress_bar::ProgressBar;
 use glam::DVec3;
 use oktant::scene::{Scene, SceneError};
 use oktant::scene_file::SceneFileError;
 use oktant::source::Source;
 use oktant::view::View;
+use oktant_shared::parts::TraversalKind;
 use std::time::{Duration, Instant};
 
 /// A scene with its view, figures of its mesh, and how long everything took.
@@ -26,15 +27,29 @@ pub struct Loaded {
 /// Why what a source holds cannot be rendered.
 pub fn refused(source: Source, error: SceneError) -> Failure {
     match source {
-        Source::Mesh(_) => Failure::from(error),
+        Source::Mesh(_) | Source::Several(_) => Failure::from(error),
         Source::Scene(path) => SceneFileError::of_build(&path, error).into(),
     }
 }
 
 impl MeshArguments {
     /// What to load.
-    pub fn source(&self) -> Source {
-        Source::from_argument(self.mesh.as_deref())
+    ///
+    /// # Errors
+    /// A scene file among several.
+    pub fn source(&self) -> Result<Source, Failure> {
+        Source::from_arguments(&self.meshes).map_err(|error| Failure::usage(error.to_string()))
+    }
+
+    /// The same, to be built with triangles as indices.
+    pub fn compact(&self) -> Self {
+        MeshArguments {
+            meshes: self.meshes.clone(),
+            structure: StructureArguments {
+                traversal: TraversalKind::Compact,
+                ..self.structure.clone()
+            },
+        }
     }
 
     /// Reads the scene and builds its structure, with progress on a terminal.
@@ -43,7 +58,7 @@ impl MeshArguments {
         let options = self.structure.options()?;
         let bar = ProgressBar::new();
         let start = Instant::now();
-        let source = self.source();
+        let source = self.source()?;
         let setting = source.load(&|stage, fraction| bar.show(stage, fraction))?;
         let reading = start.elapsed();
         let start = Instant::now();

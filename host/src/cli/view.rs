@@ -12,10 +12,11 @@ use std::time::Duration;
 const PICTURE: &str = "oktant.png";
 
 pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
-    arguments.look.check(&arguments.mesh.source())?;
+    let source = arguments.mesh.source()?;
+    arguments.look.check(&source)?;
     let look = arguments.look.clone();
     let options = ViewerOptions {
-        source: arguments.mesh.source(),
+        source,
         structure: arguments.mesh.structure.options()?,
         look: Look::new(move |view| look.applied(view)),
         size: arguments.size.map(|size| [size.width, size.height]),

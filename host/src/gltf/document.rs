@@ -152,6 +152,7 @@ pub(super) struct Buffer {
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Material {
+    pub(super) name: Option<String>,
     pub(super) pbr_metallic_roughness: MetallicRoughness,
     pub(super) normal_texture: Option<serde::de::IgnoredAny>,
     pub(super) emissive_texture: Option<serde::de::IgnoredAny>,

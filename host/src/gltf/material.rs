@@ -52,6 +52,8 @@ impl Placement {
 pub(super) struct Palette {
     /// As the kernel reads them.
     pub(super) materials: Vec<Whitted>,
+    /// What the file calls them.
+    pub(super) names: Vec<Option<String>>,
     placements: Vec<Placement>,
     ids: HashMap<Option<usize>, u32>,
 }
@@ -68,13 +70,14 @@ impl Palette {
         if let Some(id) = self.ids.get(&material) {
             return Ok(*id);
         }
-        let (whitted, placement) = match material {
-            None => (clay(), Placement::default()),
+        let (name, whitted, placement) = match material {
+            None => (None, clay(), Placement::default()),
             Some(id) => {
                 let place = Place::of("materials", id);
                 let material = get(&document.materials, "materials", id)?;
                 let color = material.pbr_metallic_roughness.base_color_texture.as_ref();
                 (
+                    material.name.clone().filter(|name| !name.is_empty()),
                     whitted(material, &place, images, notices)?,
                     color.map_or(Placement::default(), Placement::new),
                 )
@@ -82,6 +85,7 @@ impl Palette {
         };
         let id = self.materials.len() as u32;
         self.materials.push(whitted);
+        self.names.push(name);
         self.placements.push(placement);
         self.ids.insert(material, id);
         Ok(id)

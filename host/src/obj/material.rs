@@ -44,6 +44,7 @@ pub(super) fn furnish(
                 let texture = texture(asset, description.image.as_deref(), name, &mut images)?;
                 has_others |= description.has_others;
                 asset.materials.push(material_of(description, texture));
+                asset.names.materials.push(Some(material.clone()));
                 asset.materials.len() as u32 - 1
             }
             None => NONE,

@@ -16,14 +16,10 @@ use crate::progress::Progress;
 use crate::source::Setting;
 use crate::transform::{Misplaced, Transform};
 use crate::view::View;
-use glam::{DMat3, DVec3, Vec2};
+use glam::{DMat3, DVec3};
 use oktant_shared::orbit::Up;
-use oktant_shared::plane::PLANE;
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// Triangles and vertices have at most so many ids.
-pub const MOST: usize = PLANE as usize;
 
 /// A scene in the making.
 pub struct Assembly<'a> {
@@ -186,7 +182,8 @@ impl Assembly<'_> {
         let ids: Vec<u32> = asset
             .materials
             .iter()
-            .map(|material| self.palette.add_own(material, first))
+            .enumerate()
+            .map(|(own, material)| self.palette.add_own(asset.names.material(own), material, first))
             .collect();
         if let Some(known) = self.read.iter_mut().find(|known| Arc::ptr_eq(&known.asset, asset)) {
             known.materials = Some(ids.clone());
@@ -235,7 +232,7 @@ impl Assembly<'_> {
             Fault::new(place, reason)
         })?;
         self.material_ids.extend_from_slice(materials);
-        join(&mut self.mesh, mesh);
+        self.mesh.append(mesh);
         if self.mesh.positions.len().max(self.mesh.triangles.len()) > self.most {
             return Err(Fault::new(place, Reason::TooMany(self.most)));
         }
@@ -253,30 +250,4 @@ fn rounded(vector: DVec3, extent: f64) -> String {
         format!("{value:.decimals$}")
     });
     format!("[{}]", coordinates.join(", "))
-}
-
-/// Adds a mesh with normals to another one. Where only one of them has colours or texture coordinates, the vertices of
-/// the other one are white, or at (0, 0).
-fn join(all: &mut Mesh, mesh: Mesh) {
-    let first = all.positions.len();
-    let count = first + mesh.positions.len();
-    if !mesh.colors.is_empty() || !all.colors.is_empty() {
-        all.colors.resize(first, [255; 4]);
-        all.colors.extend(mesh.colors);
-        all.colors.resize(count, [255; 4]);
-    }
-    if !mesh.coordinates.is_empty() || !all.coordinates.is_empty() {
-        all.coordinates.resize(first, Vec2::ZERO);
-        all.coordinates.extend(mesh.coordinates);
-        all.coordinates.resize(count, Vec2::ZERO);
-    }
-    all.positions.extend(mesh.positions);
-    all.normals.extend(mesh.normals);
-    // Ids beyond the range are refused by who asked for this.
-    let first = first as u32;
-    all.triangles.extend(
-        mesh.triangles
-            .iter()
-            .map(|corners| corners.map(|corner| corner.wrapping_add(first))),
-    );
 }

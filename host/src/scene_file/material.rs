@@ -6,7 +6,7 @@ use super::fault::{Fault, Reason};
 use super::number::{Exponent, Height, Ior, Part, Priority};
 use super::place::Place;
 use super::texture::Textures;
-use crate::model::{CLAY, plain_material};
+use crate::model::{CLAY, plain_material, retextured};
 use glam::Vec3;
 use oktant_shared::material::{self, FRESNEL, PHONG_HIGHLIGHTS, SMOOTH_NORMALS, VERTEX_COLORS};
 use oktant_shared::texture::NO_TEXTURE;
@@ -162,18 +162,10 @@ impl Palette {
         Ok(id as u32)
     }
 
-    /// Adds a material of a mesh, whose textures begin with the index `first`; returns its index.
-    pub fn add_own(&mut self, material: &material::Material, first: u32) -> u32 {
-        let moved = |texture: u32| match texture {
-            NO_TEXTURE => NO_TEXTURE,
-            texture => texture + first,
-        };
-        let material = material::Material {
-            texture: moved(material.texture),
-            bump: moved(material.bump),
-            ..*material
-        };
-        self.used.push((None, material));
+    /// Adds a material of a mesh, with the name that its file gives it, whose textures begin with the index `first`; returns
+    /// its index.
+    pub fn add_own(&mut self, name: Option<&str>, material: &material::Material, first: u32) -> u32 {
+        self.used.push((name.map(String::from), retextured(material, first)));
         self.used.len() as u32 - 1
     }
 

@@ -6,7 +6,7 @@ use super::folder::Folder;
 use super::material::Material;
 use super::number::Repeats;
 use super::place::Place;
-use crate::texels::{self, MOST_TEXELS, TooManyTexels};
+use crate::texels::{self, TooManyTexels};
 use bytemuck::Zeroable;
 use glam::Vec3;
 use image::DynamicImage;
@@ -147,16 +147,7 @@ impl Textures {
 
     /// Adds textures, and the texels that they refer to; returns the index of the first.
     pub fn append(&mut self, textures: &[texture::Texture], texels: &[u32]) -> Result<u32, TooManyTexels> {
-        let (first, first_texel) = (self.textures.len() as u32, self.texels.len());
-        if first_texel + texels.len() > MOST_TEXELS {
-            return Err(TooManyTexels(MOST_TEXELS));
-        }
-        self.texels.extend_from_slice(texels);
-        self.textures.extend(textures.iter().map(|own| texture::Texture {
-            first: own.first + first_texel as u32,
-            ..*own
-        }));
-        Ok(first)
+        texels::append((&mut self.textures, &mut self.texels), (textures, texels))
     }
 
     /// The index of the texture of colours that a field at a place names.

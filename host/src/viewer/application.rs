@@ -12,6 +12,9 @@ use super::oracle::Comparison;
 use super::overlay::{Line, Overlay};
 use super::panel::{Inventory, Panel};
 use super::player::Player;
+use super::pulse::Pulse;
+use super::recent::Recent;
+use super::recovery::Recovery;
 use super::remembered::StateFile;
 use super::renderer::Renderer;
 use super::schedule::Schedule;
@@ -68,6 +71,8 @@ pub struct Application {
     /// How the last picture was simplified that was begun.
     pub(super) last_draft: Draft,
     pub(super) figures: Figures,
+    /// How soon events are answered.
+    pub(super) pulse: Pulse,
     /// How far the picture is from the oracle's.
     pub(super) comparison: Comparison,
     /// The work behind it.
@@ -91,11 +96,21 @@ pub struct Application {
     pub(super) loads: LoadQueue,
     /// Loads done of what was shown already.
     pub(super) reloads: u64,
+    /// Files that were dropped together, as far as they are told of.
+    pub(super) dropped: Vec<PathBuf>,
+    /// What was opened before.
+    pub(super) recent: Recent,
+    /// Whether the person is asked for files.
+    pub(super) is_choosing: bool,
     /// The file of the kernel, if it is not the one that is part of the program.
     pub(super) kernel: Option<KernelFile>,
     pub(super) gpu: GpuState,
     /// Whether the GPU is to render, once it is there.
     pub(super) wants_gpu: bool,
+    /// Whether one that is software will do.
+    pub(super) takes_software: bool,
+    /// What was done for it when it gave up.
+    pub(super) recovery: Recovery,
     pub(super) window: Option<Arc<Window>>,
     pub(super) screen: Option<Screen>,
     /// The picture to show, and whether the window shows it.
@@ -135,7 +150,6 @@ impl Application {
         let (state, complaint) = StateFile::read(options.state.clone());
         let mut application = Application {
             start,
-            state,
             session: Session::new(
                 options.look.applied(View::default()),
                 options.size.unwrap_or(Preferences::of_process().size),
@@ -151,6 +165,7 @@ impl Application {
             target: options.target,
             last_draft: Draft::FINE,
             figures: Figures::default(),
+            pulse: Pulse::default(),
             comparison: Comparison::default(),
             sight: Sight::default(),
             scene: None,
@@ -164,9 +179,14 @@ impl Application {
             watcher: Watcher::start(mailbox.clone(), || Notice::Changed),
             loads: LoadQueue::default(),
             reloads: 0,
+            dropped: Vec::new(),
+            recent: state.remembered.recent.clone(),
+            is_choosing: false,
             kernel,
             gpu: GpuState::Closed,
             wants_gpu: false,
+            takes_software: false,
+            recovery: Recovery::default(),
             window: None,
             screen: None,
             image: None,
@@ -184,6 +204,7 @@ impl Application {
             last_save: None,
             quits: false,
             failure: None,
+            state,
             mailbox,
             options,
         };
@@ -237,6 +258,7 @@ impl Application {
 
     pub(super) fn open_gpu(&mut self, software: bool, is_required: bool) {
         self.wants_gpu = true;
+        self.takes_software = software;
         self.gpu = GpuState::Opening { is_required };
         let options = GpuOptions {
             software,
@@ -248,6 +270,10 @@ impl Application {
 
     /// Takes an event of the window's or of a script's.
     pub(super) fn take_event(&mut self, event: &Event, now: Instant) {
+        if let Some(input) = self.chosen_recent(event) {
+            self.take_input(input, now);
+            return;
+        }
         if let Some(input) = self.translation.translate(event, now) {
             self.take_input(input, now);
         }
@@ -275,7 +301,10 @@ impl Application {
             Effect::Rebuild => self.reload(),
             Effect::Backend(choice) => self.want_backend(choice, now),
             Effect::Save(path) => self.save(path),
-            Effect::Open(path) => self.load(Source::from_path(path)),
+            Effect::Open(paths) => self.open_files(paths),
+            Effect::Add(paths) => self.add_files(paths),
+            Effect::Choose { beside } => self.choose_files(beside),
+            Effect::Recent(index) => return self.open_recent(index),
             Effect::SwitchBackend => self.switch_backend(now),
             Effect::Refused(reason) => return Err(reason),
             Effect::Quit => self.quits = true,

@@ -25,10 +25,10 @@ const HELP: [(&str, &str); 22] = [
     ("V, Shift+V", "what pixels cost: next, previous"),
     ("C > <", "cells of the structure, their level"),
     ("Ctrl+click", "pin a ray"),
-    ("H, ?", "this list"),
     ("Ctrl+S", "save the picture"),
-    ("drop a file", "look at the scene or mesh"),
-    ("Esc", "unpin, quit"),
+    ("Ctrl+O, Ctrl+R", "open files, recent files"),
+    ("drop files", "open them; Shift: beside these"),
+    ("H, ?, Esc", "this list; unpin, quit"),
 ];
 
 /// What the figures are about.

@@ -6,7 +6,7 @@ use super::layers::Layers;
 use super::notice::Image;
 use super::oracle::veiled;
 use super::overlay::{Line, Overlay};
-use super::screen::{Screen, ScreenError};
+use super::screen::Screen;
 use super::showing::Showing;
 use super::state::GpuState;
 use crate::picture::Picture;
@@ -46,7 +46,7 @@ impl Application {
             match Screen::gpu(window, gpu) {
                 Ok(screen) => self.screen = Some(screen),
                 Err(error) => {
-                    self.gpu_failed(error.to_string(), now);
+                    self.screen_gave_up(error, now);
                     return;
                 }
             }
@@ -76,9 +76,7 @@ impl Application {
             }
             Ok(true) => {}
             Ok(false) => self.retry = Some(now + RETRY),
-            Err(ScreenError::Backend(error)) => self.gpu_failed(error.and_the_cpu_renders(), now),
-            Err(error @ ScreenError::Surface(_)) => self.gpu_failed(error.to_string(), now),
-            Err(error @ ScreenError::Software(_)) => self.fail(error),
+            Err(error) => self.screen_gave_up(error, now),
         }
     }
 
@@ -108,6 +106,7 @@ impl Application {
         if self.session.help {
             panels.push(caption::help());
         }
+        panels.push(self.recent_lines());
         // Whoever wants no figures wants to see the picture, unless something went wrong.
         if let Some(message) = &self.message
             && (message.is_warning || self.session.figures)

@@ -27,8 +27,8 @@ pub enum Event {
     Modifiers(Modifiers),
     /// A key went down (not by repetition).
     Key(Key),
-    /// A file was dropped.
-    Dropped(PathBuf),
+    /// Files were dropped together.
+    Dropped(Vec<PathBuf>),
     /// The window's inside has another size, in physical pixels, or another scale factor.
     Resized {
         /// Width and height.
@@ -107,7 +107,7 @@ impl Event {
             WindowEvent::KeyboardInput { event, .. } if event.state == ElementState::Pressed && !event.repeat => {
                 Event::Key(key(&event.logical_key, event.physical_key)?)
             }
-            WindowEvent::DroppedFile(path) => Event::Dropped(path.clone()),
+            WindowEvent::DroppedFile(path) => Event::Dropped(vec![path.clone()]),
             WindowEvent::Resized(size) => Event::Resized {
                 size: [size.width, size.height],
                 scale,
@@ -219,7 +219,7 @@ mod tests {
         assert_eq!(press(MouseButton::Back), None);
         assert_eq!(
             from(&WindowEvent::DroppedFile("a.ply".into())),
-            Some(Event::Dropped("a.ply".into()))
+            Some(Event::Dropped(vec!["a.ply".into()]))
         );
         assert_eq!(from(&WindowEvent::Focused(true)), None);
     }

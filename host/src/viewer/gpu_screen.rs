@@ -1,5 +1,6 @@
 //! A window that the GPU draws.
 
+use super::accident::caught;
 use super::layers::Layers;
 use super::notice::Image;
 use super::panel::GpuPainter;
@@ -77,6 +78,11 @@ impl GpuScreen {
         if size.contains(&0) {
             return Ok(true);
         }
+        let gpu = self.gpu.clone();
+        sound(&gpu, || self.draw_on_surface(image, layers, size))
+    }
+
+    fn draw_on_surface(&mut self, image: &Image, layers: &Layers<'_>, size: [u32; 2]) -> Result<bool, ScreenError> {
         self.upload(image)?;
         // A surface is lost rarely, and then once; twice in a row is left to the next attempt.
         for _ in 0..2 {
@@ -126,6 +132,11 @@ impl GpuScreen {
     /// # Errors
     /// [`ScreenError::Backend`] where the device fails.
     pub fn screenshot(&mut self, image: &Image, layers: &Layers<'_>, size: [u32; 2]) -> Result<Vec<u8>, ScreenError> {
+        let gpu = self.gpu.clone();
+        sound(&gpu, || self.draw_apart(image, layers, size))
+    }
+
+    fn draw_apart(&mut self, image: &Image, layers: &Layers<'_>, size: [u32; 2]) -> Result<Vec<u8>, ScreenError> {
         self.upload(image)?;
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
         let texture = self.gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -194,6 +205,17 @@ impl GpuScreen {
         };
         (&picture.sums, [picture.width, picture.height])
     }
+}
+
+/// Does something on a device that may be lost while it is done: wgpu panics then in places.
+fn sound<T>(gpu: &Gpu, work: impl FnOnce() -> Result<T, ScreenError>) -> Result<T, ScreenError> {
+    gpu.check()?;
+    let done = caught(work).unwrap_or_else(|accident| Err(ScreenError::Backend(gpu.failed_by(&accident))));
+    if matches!(done, Err(ScreenError::Surface(_))) {
+        // Of a lost device, surfaces cannot be drawn on either.
+        gpu.check_again()?;
+    }
+    done
 }
 
 fn surface(window: &Arc<Window>, gpu: &Gpu) -> Result<wgpu::Surface<'static>, ScreenError> {

@@ -8,7 +8,7 @@ use crate::insight::Aspect;
 use crate::nearest::nearest;
 use std::path::PathBuf;
 
-const STEPS: [&str; 24] = [
+const STEPS: [&str; 26] = [
     "drag",
     "click",
     "pick",
@@ -19,6 +19,7 @@ const STEPS: [&str; 24] = [
     "minimise",
     "restore",
     "open",
+    "recent",
     "save",
     "screenshot",
     "oracle",
@@ -29,6 +30,7 @@ const STEPS: [&str; 24] = [
     "set",
     "add",
     "remove",
+    "lose",
     "print",
     "wait",
     "expect",
@@ -38,9 +40,9 @@ const DRAGS: [&str; 4] = ["left", "right", "middle", "shift+left"];
 const WAITS: [&str; 5] = ["settled", "frames", "samples", "reloaded", "milliseconds"];
 const EXPECTATIONS: [&str; 4] = ["first-picture", "backend", "triangles", "message"];
 /// The keys that mean something.
-pub const KEYS: [&str; 26] = [
+pub const KEYS: [&str; 28] = [
     "F", "R", "P", "M", "T", "+", "=", "-", ".", ",", "3", "[", "]", "B", "H", "?", "I", "O", "V", "C", ">", "<",
-    "Ctrl+S", "Tab", "Esc", "Escape",
+    "Ctrl+S", "Ctrl+O", "Ctrl+R", "Tab", "Esc", "Escape",
 ];
 
 /// The first word of a text, and the rest of it.
@@ -65,7 +67,11 @@ pub fn step(line: &str) -> Result<Step, String> {
             [width @ 1..=32_768, height @ 1..=32_768] => Step::Resize([*width, *height]),
             _ => return Err("give width and height in pixels, for example: resize 800 600".into()),
         },
-        "open" => Step::Open(path(word, rest)?),
+        "open" => Step::Open(paths(word, rest)?),
+        "recent" => match count(word, rest)? {
+            0 => return Err("give the place in the list of recent files, from 1 on, for example: recent 1".into()),
+            place => Step::Ask(Input::Recent(place as usize - 1)),
+        },
         "save" => Step::Save(path(word, rest)?),
         "screenshot" => Step::Screenshot(path(word, rest)?),
         "oracle" => match rest {
@@ -77,13 +83,18 @@ pub fn step(line: &str) -> Result<Step, String> {
         "move" => Step::Move(place(word, rest)?),
         "pin" => Step::Pin(place(word, rest)?),
         "set" => Step::Ask(Input::Adjust(Adjustment::parse(rest)?)),
-        "add" => match rest {
-            "light" => Step::Ask(Input::AddLight),
-            _ => return Err(unknown(rest, "thing to add", &["light"])),
+        "add" => match split(rest) {
+            ("light", "") => Step::Ask(Input::AddLight),
+            ("mesh", files) => Step::Ask(Input::Add(paths("add mesh", files)?)),
+            (_, _) => return Err(unknown(rest, "thing to add", &["light", "mesh"])),
         },
         "remove" => match split(rest) {
             ("light", number) => Step::Ask(Input::RemoveLight(count("remove light", number)? as usize)),
             (what, _) => return Err(unknown(what, "thing to remove", &["light"])),
+        },
+        "lose" => match rest {
+            "device" => Step::LoseDevice,
+            _ => return Err(unknown(rest, "thing to lose", &["device"])),
         },
         "wait" => wait(rest)?,
         "expect" => Step::Expect(expectation(rest)?),
@@ -146,6 +157,8 @@ fn key(name: &str) -> Result<Step, String> {
         "esc" | "escape" => (Key::Escape, false),
         "tab" => (Key::Tab, false),
         "ctrl+s" => (Key::Character('s'), true),
+        "ctrl+o" => (Key::Character('o'), true),
+        "ctrl+r" => (Key::Character('r'), true),
         _ => {
             let mut characters = lower.chars();
             match (characters.next(), characters.next()) {
@@ -194,13 +207,31 @@ fn count(step: &str, rest: &str) -> Result<u64, String> {
 
 fn path(step: &str, rest: &str) -> Result<PathBuf, String> {
     if rest.is_empty() {
-        return Err(format!("give a file, for example: {step} {}", example(step)));
+        return Err(format!("give a file, for example: {step} picture.png"));
     }
     Ok(PathBuf::from(rest))
 }
 
-fn example(step: &str) -> &'static str {
-    if step == "open" { "mesh.ply" } else { "picture.png" }
+/// Any number of files, but one; a name with spaces stands in quotes.
+fn paths(step: &str, rest: &str) -> Result<Vec<PathBuf>, String> {
+    let mut paths = Vec::new();
+    let mut rest = rest.trim_start();
+    while !rest.is_empty() {
+        let (name, others) = match rest.strip_prefix('"') {
+            Some(quoted) => quoted
+                .split_once('"')
+                .ok_or("a quote is missing at the end of the last name")?,
+            None => split(rest),
+        };
+        if !name.is_empty() {
+            paths.push(PathBuf::from(name));
+        }
+        rest = others.trim_start();
+    }
+    if paths.is_empty() {
+        return Err(format!("give files, for example: {step} part.ply \"other part.stl\""));
+    }
+    Ok(paths)
 }
 
 fn alone(word: &str, rest: &str, step: Step) -> Result<Step, String> {

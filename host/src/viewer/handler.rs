@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::time::Instant;
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;
-use winit::event::WindowEvent;
+use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow};
 use winit::window::{Window, WindowId};
 
@@ -54,6 +54,10 @@ impl Application {
 }
 
 impl ApplicationHandler<Notice> for Application {
+    fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
+        self.pulse.wakes(cause, Instant::now());
+    }
+
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if self.window.is_some() {
             return;
@@ -107,6 +111,11 @@ impl ApplicationHandler<Notice> for Application {
         let Some(event) = meaning.filter(|_| is_for_all) else {
             return;
         };
+        if let Event::Dropped(paths) = event {
+            // One by one, and all of them before the loop waits again.
+            self.dropped.extend(paths);
+            return;
+        }
         let is_window = matches!(event, Event::Resized { .. } | Event::CloseRequested);
         if self.player.is_none() || is_window {
             self.take_event(&event, now);
@@ -117,12 +126,18 @@ impl ApplicationHandler<Notice> for Application {
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
-        let wake = self.next_wake(Instant::now());
+        let now = Instant::now();
+        let dropped = std::mem::take(&mut self.dropped);
+        if !dropped.is_empty() && self.player.is_none() {
+            self.take_event(&Event::Dropped(dropped), now);
+        }
+        let wake = self.next_wake(now);
         if self.quits {
             event_loop.exit();
             return;
         }
         event_loop.set_control_flow(wake.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
+        self.pulse.rests(Instant::now());
     }
 
     fn exiting(&mut self, _: &ActiveEventLoop) {

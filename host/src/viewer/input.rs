@@ -68,8 +68,19 @@ pub enum Input {
     ToggleOracle,
     /// Save the picture: into a file, or under the next free name.
     Save(Option<PathBuf>),
-    /// Look at another scene.
-    Open(PathBuf),
+    /// Look at another scene, or at several meshes.
+    Open(Vec<PathBuf>),
+    /// Look at meshes beside what is shown.
+    Add(Vec<PathBuf>),
+    /// Let the person choose files to look at; beside what is shown, if that is said.
+    Choose {
+        /// Whether it is.
+        beside: bool,
+    },
+    /// Look again at what was opened before: the last is 0.
+    Recent(usize),
+    /// The list of what was opened before.
+    ToggleRecent,
     /// The window has another size now, in physical pixels (0 while it is minimised), and so many of them to a unit.
     Resize {
         /// Width and height.

@@ -25,6 +25,15 @@ impl LoadQueue {
         self.begin(source, false)
     }
 
+    /// As [`LoadQueue::open`], where the source is what is shown, and more.
+    pub fn extend(&mut self, source: Source) -> u64 {
+        let load = self.open(source);
+        if let Some(loading) = &mut self.newest {
+            loading.is_addition = true;
+        }
+        load
+    }
+
     /// What is shown was saved. Returns the number of the load that is to be begun; none where it has to wait.
     pub fn reload(&mut self, shown: &Source) -> Option<u64> {
         self.is_stale = true;
@@ -47,6 +56,7 @@ impl LoadQueue {
             stage: "reading",
             fraction: 0.0,
             is_reload,
+            is_addition: false,
         });
         self.begun
     }

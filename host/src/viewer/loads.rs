@@ -6,6 +6,8 @@ use super::loader::{self, Arrival, Refusal};
 use super::state::Loading;
 use crate::scene::Staging;
 use crate::source::Source;
+use std::path::PathBuf;
+use std::thread;
 use std::time::Instant;
 use winit::dpi::PhysicalSize;
 
@@ -14,6 +16,27 @@ impl Application {
     pub(super) fn load(&mut self, source: Source) {
         let load = self.loads.open(source);
         self.begin_load(Some(load));
+    }
+
+    /// Begins to load what files hold in place of what is shown.
+    pub(super) fn open_files(&mut self, paths: Vec<PathBuf>) {
+        match Source::from_paths(paths) {
+            Ok(source) => self.load(source),
+            Err(error) => self.tell(error.to_string(), true),
+        }
+    }
+
+    /// Begins to load what files hold beside what is shown, or is about to be.
+    pub(super) fn add_files(&mut self, paths: Vec<PathBuf>) {
+        let loading = self.loads.loading().filter(|loading| !loading.is_reload);
+        let source = loading.map_or(&self.source, |loading| &loading.source);
+        match source.with(paths) {
+            Ok(source) => {
+                let load = self.loads.extend(source);
+                self.begin_load(Some(load));
+            }
+            Err(error) => self.tell(error.to_string(), true),
+        }
     }
 
     /// Reads again what is shown: one of its files was saved.
@@ -65,6 +88,9 @@ impl Application {
         if is_first || loading.is_reload {
             let is_elsewhere = arrival.focus != self.focus;
             self.session.update(view, focus, is_elsewhere);
+        } else if loading.is_addition {
+            // Seen from where it was: distances are counted in what there is to see.
+            self.session.update(view, focus, false);
         } else {
             self.session.open(view, focus);
         }
@@ -76,13 +102,16 @@ impl Application {
         self.session.restage(staging.clone(), loading.is_reload);
         let is_staged = self.session.staging == staging;
         self.names = arrival.names;
-        self.scene = Some(arrival.scene);
+        let old = self.scene.replace(arrival.scene);
+        // Giving a large one back takes as long as dozens of frames.
+        thread::spawn(move || drop(old));
         self.built = self.building;
         self.inventory = None;
         self.focus = arrival.focus;
         self.sight.shift = arrival.shift;
         if !loading.is_reload {
             self.session.seeing.pin = None;
+            self.recent.opened(&loading.source);
         }
         self.source = loading.source;
         self.watcher.watch(arrival.stamps);

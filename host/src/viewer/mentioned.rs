@@ -20,8 +20,13 @@ const LARGEST_MESH: u64 = 256 << 20;
 /// What a source is read from, as far as can be told without building it: the file, whatever a scene file may mean by one of
 /// its texts, and what meshes among all these mention, there or not.
 pub fn mentioned(source: &Source) -> Vec<PathBuf> {
-    let (Source::Scene(path) | Source::Mesh(MeshSource::File(path))) = source else {
-        return Vec::new();
+    let path = match source {
+        Source::Scene(path) | Source::Mesh(MeshSource::File(path)) => path,
+        Source::Mesh(_) => return Vec::new(),
+        Source::Several(meshes) => {
+            let each = meshes.iter().map(|mesh| mentioned(&Source::Mesh(mesh.clone())));
+            return each.flatten().collect();
+        }
     };
     let mut files = vec![path.clone()];
     if let Source::Scene(path) = source {
@@ -111,5 +116,7 @@ mod tests {
         let path = PathBuf::from("a.ply");
         assert_eq!(mentioned(&Source::from_path(path.clone())), [path]);
         assert_eq!(mentioned(&Source::Mesh(MeshSource::Bunny)), Vec::<PathBuf>::new());
+        let several = Source::from_arguments(&["a.ply", "balls", "b.stl"].map(PathBuf::from)).unwrap();
+        assert_eq!(mentioned(&several), ["a.ply", "b.stl"].map(PathBuf::from));
     }
 }

@@ -1,11 +1,12 @@
 //! What follows from the notices of the threads.
 
 use super::application::Application;
-use super::notice::{Notice, RenderError, Rendered};
+use super::notice::{Notice, RenderError, Rendered, SaveError};
 use super::schedule::Quality;
 use super::screen::Screen;
 use super::showing::Part;
 use super::state::{GpuState, SaveProgress, Work};
+use crate::backend::BackendError;
 use std::time::Instant;
 
 impl Application {
@@ -24,6 +25,7 @@ impl Application {
                     self.redraw();
                 }
             }
+            Notice::Chosen { paths, beside } => self.take_chosen(paths, beside, now),
             Notice::Changed => self.reload(),
             Notice::KernelChanged => self.reload_kernel(),
             Notice::KernelSwapped(result) => self.take_kernel(result, now),
@@ -73,7 +75,7 @@ impl Application {
                 }
                 self.work = Work::Idle;
                 if let Err(RenderError::Backend(error)) = result {
-                    self.gpu_failed(error.and_the_cpu_renders(), now);
+                    self.gpu_gave_up(&error, now);
                 }
             }
             Notice::Compared { number, result } => self.take_comparison(number, result),
@@ -90,6 +92,7 @@ impl Application {
                 });
                 match result {
                     Ok(path) => self.tell(format!("The picture is in {}.", path.display()), false),
+                    Err(SaveError::Backend(error @ BackendError::Lost { .. })) => self.gpu_gave_up(&error, now),
                     Err(error) => self.tell(error.to_string(), true),
                 }
             }

@@ -41,6 +41,13 @@ pub enum Notice {
         /// Figures.
         inventory: Inventory,
     },
+    /// The person has chosen files, or none; nobody was there to ask where there is no list at all.
+    Chosen {
+        /// The files.
+        paths: Option<Vec<PathBuf>>,
+        /// Whether they are to be beside what is shown.
+        beside: bool,
+    },
     /// A file of what is shown was saved.
     Changed,
     /// The GPU is open, or cannot be.

@@ -27,12 +27,7 @@ pub fn open_gpu(options: GpuOptions, mailbox: &Mailbox) {
 pub fn swap_kernel(gpu: Arc<Gpu>, path: PathBuf, mailbox: &Mailbox) {
     let mailbox = mailbox.clone();
     thread::spawn(move || {
-        let swapped = caught(|| swapped(&gpu, &path)).unwrap_or_else(|accident| {
-            Err(BackendError::Failed {
-                adapter: gpu.name.clone(),
-                reason: format!("by a mistake in oktant or its driver: {accident}; please report it"),
-            })
-        });
+        let swapped = caught(|| swapped(&gpu, &path)).unwrap_or_else(|accident| Err(gpu.failed_by(&accident)));
         let swapped = swapped.map(|(kernel, gpu)| (kernel, OpenGpu(Arc::new(gpu))));
         mailbox.send(Notice::KernelSwapped(swapped));
     });

@@ -2,6 +2,7 @@
 
 mod facts;
 mod fields;
+mod files;
 mod gpu_painter;
 mod graph;
 mod kernel;

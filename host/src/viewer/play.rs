@@ -8,6 +8,7 @@ use super::layers::Layers;
 use super::notice::Image;
 use super::player::{self, Counts, PATIENCE};
 use super::seeing::See;
+use super::state::GpuState;
 use super::step::{Expectation, Step};
 use crate::output::PictureFile;
 use std::io::Write;
@@ -88,7 +89,7 @@ impl Application {
             Step::DoubleClick => player.queue(player::double_click()),
             Step::Wheel(notches) => player.queue([Event::Wheel(*notches)]),
             Step::Key { key, control } => player.queue(player::key(*key, *control)),
-            Step::Open(path) => player.queue([Event::Dropped(path.clone())]),
+            Step::Open(paths) => player.queue([Event::Dropped(paths.clone())]),
             Step::Resize(size) => {
                 if let (true, Some(window)) = (begins, &self.window)
                     && let Some(size) = window.request_inner_size(PhysicalSize::new(size[0], size[1]))
@@ -142,6 +143,14 @@ impl Application {
             Step::Pin(at) => player.queue(player::pin(*at)),
             Step::Unpin => self.take_input(Input::See(See::Unpin), now),
             Step::Ask(input) => self.ask(input.clone(), now)?,
+            Step::LoseDevice => {
+                let GpuState::Open(gpu) = &self.gpu else {
+                    return Err("no GPU is open; wait for it with: wait settled".into());
+                };
+                gpu.lose();
+                // Whoever does not look never finds out.
+                self.schedule.change(now);
+            }
             Step::Print => {
                 let text = self.report(now);
                 // Whoever closed standard output wants no more.

@@ -3,7 +3,6 @@
 use super::layers::Layers;
 use super::panel::GpuPainter;
 use crate::backend::gpu::{Gpu, READ, group_of_buffers};
-use wgpu::util::DeviceExt;
 
 /// The pipeline of the entry points `present_vertex` and `present_fragment`, for surfaces of one format.
 pub struct Presenter {
@@ -56,22 +55,15 @@ impl Presenter {
         painter: Option<&mut GpuPainter>,
     ) {
         let overlay = layers.overlay;
-        let buffer = |label, contents: &[u8], usage| {
-            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some(label),
-                contents,
-                usage,
-            })
-        };
         // A buffer must not be empty, even where nobody reads it.
         let texels: &[u32] = if overlay.texels.is_empty() {
             &[0]
         } else {
             &overlay.texels
         };
-        let texels = buffer("overlay", bytemuck::cast_slice(texels), wgpu::BufferUsages::STORAGE);
+        let texels = gpu.filled("overlay", bytemuck::cast_slice(texels), wgpu::BufferUsages::STORAGE);
         let uniform = layers.showing.present(picture_size, overlay, target_size);
-        let uniform = buffer("present", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);
+        let uniform = gpu.filled("present", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM);
         let entries: Vec<_> = [sums, &texels, &uniform]
             .into_iter()
             .zip(0..)

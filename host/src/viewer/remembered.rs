@@ -1,6 +1,7 @@
 //! What the window remembers from one time to the next: a small file.
 
 use super::panel::Layout;
+use super::recent::Recent;
 use crate::output::TextFile;
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -10,12 +11,15 @@ use std::path::{Path, PathBuf};
 /// No state is longer, bytes.
 const LONGEST: u64 = 1 << 16;
 
-/// The panel, as it was left.
+/// The panel, as it was left, and what was opened.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Remembered {
     /// Whether it was open.
     pub panel: bool,
+    /// What was opened last.
+    #[serde(skip_serializing_if = "Recent::is_empty")]
+    pub recent: Recent,
     /// How it was laid out.
     #[serde(flatten)]
     pub layout: Layout,
@@ -72,7 +76,7 @@ impl StateFile {
         });
         written.map_err(|reason| {
             format!(
-                "The panel's state is not remembered in {} ({}); name another file in OKTANT_STATE, or none.",
+                "The viewer's state is not remembered in {} ({}); name another file in OKTANT_STATE, or none.",
                 path.display(),
                 reason.trim_end_matches('.')
             )
@@ -103,6 +107,7 @@ mod tests {
     fn remembered() -> Remembered {
         Remembered {
             panel: true,
+            recent: Recent::default(),
             layout: Layout {
                 width: 351.5,
                 unfolded: [Section::Lights, Section::Statistics].into(),

@@ -7,7 +7,8 @@ use std::time::Instant;
 
 impl Application {
     /// The figures and the view, a line each: a name and its values.
-    pub(super) fn report(&self, now: Instant) -> String {
+    pub(super) fn report(&mut self, now: Instant) -> String {
+        let answered = self.pulse.take_longest();
         let caption = self.caption(now);
         let view = &self.session.view;
         let mut text = String::new();
@@ -51,6 +52,10 @@ impl Application {
             line(name, value);
         }
         line("first-picture", number(first));
+        line(
+            "answered-within-milliseconds",
+            number(Some(answered.as_secs_f64() * 1e3)),
+        );
         line("frames", self.figures.frames.to_string());
         line("drawn", self.figures.drawn.to_string());
         line("frames-a-second", number(caption.frames_a_second));

@@ -95,7 +95,7 @@ mod tests {
 
     #[test]
     fn all_steps() {
-        let text = "
+        let text = r#"
             # a comment
             drag left 100 -50
             drag shift+left 1 2.5
@@ -110,7 +110,9 @@ mod tests {
             resize 800 600
             minimise
             restore
-            open my meshes/a b.ply
+            open a.ply "my meshes/a b.ply" c.stl
+            recent 2
+            add mesh d.ply
             save out.png
             screenshot shot.png
             oracle on
@@ -124,6 +126,7 @@ mod tests {
             add light
             remove light 1
             pick 3 4
+            lose device
             print
             wait settled
             wait frames 3
@@ -135,7 +138,7 @@ mod tests {
             expect triangles 69451
             expect message no such file
             quit
-        ";
+        "#;
         let drag = |shift, right, down| Step::Drag {
             button: Button::Left,
             shift,
@@ -159,7 +162,9 @@ mod tests {
                 Step::Resize([800, 600]),
                 Step::Minimise,
                 Step::Restore,
-                Step::Open("my meshes/a b.ply".into()),
+                Step::Open(["a.ply", "my meshes/a b.ply", "c.stl"].map(PathBuf::from).to_vec()),
+                Step::Ask(Input::Recent(1)),
+                Step::Ask(Input::Add(vec!["d.ply".into()])),
                 Step::Save("out.png".into()),
                 Step::Screenshot("shot.png".into()),
                 Step::Oracle(true),
@@ -173,6 +178,7 @@ mod tests {
                 Step::Ask(Input::AddLight),
                 Step::Ask(Input::RemoveLight(1)),
                 Step::Ask(Input::Pick([3.0, 4.0])),
+                Step::LoseDevice,
                 Step::Print,
                 Step::WaitSettled,
                 Step::WaitFrames(3),
@@ -224,6 +230,11 @@ mod tests {
             "resize 0 10",
             "resize 10",
             "open",
+            "open \"a b.ply",
+            "open \"\"",
+            "recent 0",
+            "recent last",
+            "add mesh",
             "save",
             "wait frames",
             "wait frames -1",

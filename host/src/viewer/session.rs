@@ -48,6 +48,8 @@ pub struct Session {
     pub scale: f64,
     /// Whether the list of keys is shown.
     pub help: bool,
+    /// Whether the list of what was opened before is shown.
+    pub recent: bool,
     /// Whether the figures are shown.
     pub figures: bool,
     /// Whether the panel is open.
@@ -87,8 +89,17 @@ pub enum Effect {
     Rebuild,
     /// Something else is to render.
     Backend(BackendChoice),
-    /// A scene is to be loaded.
-    Open(PathBuf),
+    /// A scene is to be loaded, or several meshes.
+    Open(Vec<PathBuf>),
+    /// Meshes are to be loaded beside what is shown.
+    Add(Vec<PathBuf>),
+    /// The person is to choose files; beside what is shown, if that is said.
+    Choose {
+        /// Whether it is.
+        beside: bool,
+    },
+    /// What was opened before is to be loaded: the last is 0.
+    Recent(usize),
     /// CPU and GPU change places.
     SwitchBackend,
     /// It cannot be: why, and what to do, in a sentence without its capital and its point.
@@ -107,6 +118,7 @@ impl Session {
             size,
             scale,
             help: false,
+            recent: false,
             figures: true,
             panel: false,
             oracle: false,
@@ -181,6 +193,10 @@ impl Session {
                 self.seeing.apply(wish, &self.view, self.size);
                 return Effect::Redraw;
             }
+            Input::Leave if self.recent => {
+                self.recent = false;
+                return Effect::Redraw;
+            }
             Input::Leave if self.seeing.pin.is_some() => {
                 self.seeing.apply(See::Unpin, &self.view, self.size);
                 return Effect::Redraw;
@@ -195,7 +211,17 @@ impl Session {
             Input::RemoveLight(index) => return self.remove_light(index),
             Input::SwitchBackend => return Effect::SwitchBackend,
             Input::Save(path) => return Effect::Save(path),
-            Input::Open(path) => return Effect::Open(path),
+            Input::Open(paths) => return Effect::Open(paths),
+            Input::Add(paths) => return Effect::Add(paths),
+            Input::Choose { beside } => return Effect::Choose { beside },
+            Input::Recent(index) => {
+                self.recent = false;
+                return Effect::Recent(index);
+            }
+            Input::ToggleRecent => {
+                self.recent = !self.recent;
+                return Effect::Redraw;
+            }
             Input::Leave | Input::Quit => return Effect::Quit,
         }
         let same_picture = View {

@@ -48,6 +48,7 @@ impl Application {
             session: &self.session,
             inventory: self.inventory.as_ref(),
             names: &self.names,
+            recent: &self.recent,
             wants_gpu: self.wants_gpu,
             figures: &self.figures,
             caption: self.caption(now),
@@ -90,11 +91,12 @@ impl Application {
         !self.session.panel || self.panel.as_ref().is_none_or(|panel| panel.is_settled(now))
     }
 
-    /// Writes down how the panel is left.
+    /// Writes down how the panel is left, and what was opened.
     pub(super) fn remember(&self) {
         let Some(panel) = &self.panel else { return };
         let remembered = Remembered {
             panel: self.session.panel,
+            recent: self.recent.clone(),
             layout: panel.layout.clone(),
         };
         if let Err(sentence) = self.state.write(&remembered) {

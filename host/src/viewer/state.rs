@@ -38,6 +38,8 @@ pub struct Loading {
     pub fraction: f32,
     /// Whether it is what is shown already, read again.
     pub is_reload: bool,
+    /// Whether it is what is shown already, and something beside it.
+    pub is_addition: bool,
 }
 
 /// A sentence for the person.

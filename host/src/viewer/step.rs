@@ -38,8 +38,8 @@ pub enum Step {
     Minimise,
     /// Restore the minimised window.
     Restore,
-    /// Drop a file on the window.
-    Open(PathBuf),
+    /// Drop files on the window.
+    Open(Vec<PathBuf>),
     /// Save the picture and wait until it is written.
     Save(PathBuf),
     /// Save what the window shows, overlay and all.
@@ -58,6 +58,8 @@ pub enum Step {
     Ask(Input),
     /// Print the figures.
     Print,
+    /// Lose the GPU's device.
+    LoseDevice,
     /// Wait until nothing changes any more.
     WaitSettled,
     /// Wait until so many new pictures were shown.

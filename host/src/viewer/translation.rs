@@ -85,7 +85,8 @@ impl Translation {
                 None
             }
             Event::Key(key) => self.key(key),
-            Event::Dropped(ref path) => Some(Input::Open(path.clone())),
+            Event::Dropped(ref paths) if self.modifiers != Modifiers::default() => Some(Input::Add(paths.clone())),
+            Event::Dropped(ref paths) => Some(Input::Open(paths.clone())),
             Event::Resized { size, scale } => {
                 self.scale = scale;
                 Some(Input::Resize { size, scale })
@@ -129,6 +130,10 @@ impl Translation {
             Key::Escape => Input::Leave,
             Key::Tab => Input::TogglePanel,
             Key::Character('s') if self.modifiers.control => Input::Save(None),
+            Key::Character('o') if self.modifiers.control => Input::Choose {
+                beside: self.modifiers.shift,
+            },
+            Key::Character('r') if self.modifiers.control => Input::ToggleRecent,
             Key::Character(_) if self.modifiers.control => return None,
             Key::Character('f') => Input::Frame,
             Key::Character('r') => Input::Reset,
@@ -321,9 +326,20 @@ mod tests {
         assert_eq!(hand.moves(35.0, 40.0), None, "it holds nothing");
         assert_eq!(hand.does(Event::Wheel(1.5)), Some(Input::Zoom(1.5)));
         assert_eq!(hand.does(Event::Wheel(0.0)), None);
+        let paths = vec!["a.ply".into(), "b.stl".into()];
         assert_eq!(
-            hand.does(Event::Dropped("a.ply".into())),
-            Some(Input::Open("a.ply".into()))
+            hand.does(Event::Dropped(paths.clone())),
+            Some(Input::Add(paths.clone()))
         );
+        assert_eq!(
+            hand.does(character('o')),
+            Some(Input::Choose { beside: true }),
+            "with Shift, too"
+        );
+        hand.modifiers(false, false);
+        assert_eq!(hand.does(Event::Dropped(paths.clone())), Some(Input::Open(paths)));
+        hand.modifiers(false, true);
+        assert_eq!(hand.does(character('o')), Some(Input::Choose { beside: false }));
+        assert_eq!(hand.does(character('r')), Some(Input::ToggleRecent));
     }
 }

@@ -85,7 +85,7 @@ impl Application {
 
     pub(super) fn engine(&self) -> Engine {
         match &self.gpu {
-            GpuState::Open(gpu) if self.wants_gpu => Engine::Gpu(gpu.clone()),
+            GpuState::Open(gpu) if self.wants_gpu && self.recovery.fits(self.shown_load) => Engine::Gpu(gpu.clone()),
             _ => Engine::Cpu,
         }
     }

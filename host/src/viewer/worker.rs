@@ -198,13 +198,8 @@ impl Worker {
             })
             .map_err(RenderError::Accident),
             Engine::Gpu(gpu) => {
-                let shown = caught(|| self.show_gpu(task, gpu)).unwrap_or_else(|accident| {
-                    Err(BackendError::Failed {
-                        adapter: gpu.name.clone(),
-                        reason: format!("by a mistake in oktant or its driver: {accident}; please report it"),
-                    })
-                });
-                Ok(shown?)
+                let shown = caught(|| self.show_gpu(task, gpu));
+                Ok(shown.unwrap_or_else(|accident| Err(gpu.failed_by(&accident)))?)
             }
         }
     }

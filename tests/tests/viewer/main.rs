@@ -4,11 +4,13 @@
 
 #![cfg(test)]
 
+mod failures;
 mod files;
 mod look;
 mod oracle;
 mod panel;
 mod saves;
+mod several;
 mod sight;
 mod start;
 mod window;

@@ -1,14 +1,21 @@
 //! Choosing and opening the device.
 
+use super::failure::{Failure, Record};
+use super::hardship::Hardship;
 use super::kernel::Kernel;
 use super::kernel_error::KernelError;
 use super::kernel_module::{ModulePath, create_module, is_passed_through};
 use super::layouts::{Layouts, compute_pipeline};
 use super::wakefulness::Wakefulness;
+use crate::accident::{Accident, caught_quietly};
 use crate::backend::BackendError;
 use oktant_shared::variant::Variant;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::Duration;
+
+/// A device that went wrong is waited for no longer.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Which device to take and how to hand it the kernel.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -41,8 +48,9 @@ pub struct Gpu {
     module: wgpu::ShaderModule,
     parts: OnceLock<wgpu::ShaderModule>,
     pipelines: Mutex<HashMap<&'static str, Arc<wgpu::ComputePipeline>>>,
-    failure: Arc<Mutex<Option<String>>>,
     pub(super) wakefulness: Wakefulness,
+    pub(super) hardship: Arc<Hardship>,
+    record: Record,
 }
 
 impl Gpu {
@@ -74,12 +82,15 @@ impl Gpu {
     /// driver refuses, [`BackendError::Failed`] where it cannot compile the kernel; [`BackendError::KernelWithoutGpu`] and
     /// [`BackendError::Kernel`] in the place of the first and the last where the options name a kernel.
     pub fn open(options: &GpuOptions) -> Result<Self, BackendError> {
+        let hardship = Arc::new(Hardship::of_environment().map_err(BackendError::NoAdapter)?);
         let instance = Self::instance();
         let adapters = Self::adapters(&instance);
         let found = adapters.len();
         let adapter = adapters
             .into_iter()
-            .find(|adapter| options.software || adapter.get_info().device_type != wgpu::DeviceType::Cpu)
+            .find(|adapter| {
+                options.software || hardship.software || adapter.get_info().device_type != wgpu::DeviceType::Cpu
+            })
             .ok_or_else(|| {
                 let reason = if found == 0 {
                     "no Vulkan, Metal or Direct3D 12 driver answers".into()
@@ -110,22 +121,17 @@ impl Gpu {
             reason: error.to_string(),
         })?;
 
-        let failure = Arc::new(Mutex::new(None));
-        let remember = {
-            let failure = failure.clone();
-            move |reason: String| {
-                let mut failure = failure.lock().unwrap_or_else(PoisonError::into_inner);
-                failure.get_or_insert(reason);
-            }
-        };
-        let on_error = remember.clone();
+        let record = Record::default();
+        let mistakes = record.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            on_error(one_line(&error.to_string()))
+            mistakes.take(Failure::Mistake(one_line(&error.to_string())));
         }));
+        let losses = record.clone();
         device.set_device_lost_callback(move |reason, message| {
-            if reason != wgpu::DeviceLostReason::Destroyed {
-                remember(format!("device lost: {}", one_line(&message)));
-            }
+            losses.take(Failure::Lost(match reason {
+                wgpu::DeviceLostReason::Destroyed => "it was closed".into(),
+                wgpu::DeviceLostReason::Unknown => one_line(&message),
+            }));
         });
 
         let passthrough = is_passed_through(&device, info.backend, options.module)
@@ -150,7 +156,8 @@ impl Gpu {
             kernel,
             pipelines: Mutex::default(),
             wakefulness: Wakefulness::default(),
-            failure,
+            hardship,
+            record,
         };
         // The one that most need, so that a driver that cannot is found out now.
         gpu.pipeline(Variant::Plain.entry_point())?;
@@ -202,7 +209,8 @@ impl Gpu {
             kernel,
             pipelines: Mutex::default(),
             wakefulness: Wakefulness::default(),
-            failure: self.failure.clone(),
+            hardship: self.hardship.clone(),
+            record: self.record.clone(),
         })
     }
 
@@ -245,16 +253,24 @@ impl Gpu {
     /// The largest number of bytes that a kernel can see through one binding.
     pub fn binding_limit(&self) -> u64 {
         let limits = self.device.limits();
-        limits.max_storage_buffer_binding_size.min(limits.max_buffer_size)
+        let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        limit.min(self.hardship.binding)
     }
 
     /// Whether anything has gone wrong since the device was opened.
     ///
     /// # Errors
-    /// [`BackendError::Failed`] with what went wrong first.
+    /// [`BackendError::Lost`] where the device is lost, else [`BackendError::Failed`] with what went wrong first.
     pub fn check(&self) -> Result<(), BackendError> {
-        match &*self.failure.lock().unwrap_or_else(PoisonError::into_inner) {
-            Some(reason) => Err(self.failed(reason)),
+        if matches!(self.record.failure(), Some(Failure::Mistake(_))) {
+            self.find_out();
+        }
+        match self.record.failure() {
+            Some(Failure::Mistake(reason)) => Err(self.failed(&reason)),
+            Some(Failure::Lost(reason)) => Err(BackendError::Lost {
+                adapter: self.name.clone(),
+                reason,
+            }),
             None => Ok(()),
         }
     }
@@ -262,11 +278,52 @@ impl Gpu {
     /// Waits until the device has done all that was queued.
     ///
     /// # Errors
-    /// [`BackendError::Failed`] where it cannot.
+    /// As [`Gpu::check`].
     pub fn wait(&self) -> Result<(), BackendError> {
-        let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
+        if self.hardship.ends_here() {
+            self.lose();
+        }
+        let polled = self.polled(wgpu::PollType::wait_indefinitely());
         self.check()?;
-        polled.map(|_| ()).map_err(|error| self.failed(&error.to_string()))
+        polled.map_err(|reason| self.failed(&reason))
+    }
+
+    /// As [`Gpu::check`], where the device may have been lost without telling it yet.
+    pub(crate) fn check_again(&self) -> Result<(), BackendError> {
+        self.find_out();
+        self.check()
+    }
+
+    /// Lets the device tell that it is lost, if it is: it does so only once all that it was given is over.
+    fn find_out(&self) {
+        drop(self.polled(wgpu::PollType::Wait {
+            submission_index: None,
+            timeout: Some(PATIENCE),
+        }));
+    }
+
+    /// Lets the device tell what it has done. Where that goes wrong, wgpu panics.
+    fn polled(&self, how: wgpu::PollType) -> Result<(), String> {
+        match caught_quietly(|| self.device.poll(how)) {
+            Ok(Ok(_)) => Ok(()),
+            Ok(Err(error)) => Err(error.to_string()),
+            Err(accident) => Err(accident.to_string()),
+        }
+    }
+
+    /// Closes the device while others use it, as if it was lost: for tests.
+    pub fn lose(&self) {
+        self.device.destroy();
+    }
+
+    /// That something panicked while it worked, unless that was because the device is lost.
+    pub(crate) fn failed_by(&self, accident: &Accident) -> BackendError {
+        match self.check_again() {
+            Err(error @ BackendError::Lost { .. }) => error,
+            _ => self.failed(&format!(
+                "by a mistake in oktant or its driver: {accident}; please report it"
+            )),
+        }
     }
 
     pub(super) fn failed(&self, reason: &str) -> BackendError {

@@ -11,7 +11,9 @@ use oktant_shared::octree::Root;
 use oktant_shared::parts::Parts;
 use oktant_shared::plane::Plane;
 use std::sync::{Arc, Weak};
-use wgpu::util::DeviceExt;
+
+/// Bytes that are copied to the device at once.
+const PIECE: usize = 64 << 20;
 
 /// A scene in the device's memory.
 pub struct GpuScene {
@@ -82,8 +84,8 @@ impl Gpu {
     /// Copies a scene to the device.
     ///
     /// # Errors
-    /// [`BackendError::TooLarge`] where an array exceeds what the device can bind, [`BackendError::Failed`] where its
-    /// memory is full.
+    /// [`BackendError::TooLarge`] where an array exceeds what the device can bind, [`BackendError::OutOfMemory`] where its
+    /// memory is full, [`BackendError::Lost`], [`BackendError::Failed`].
     pub fn upload(&self, scene: &Scene) -> Result<GpuScene, BackendError> {
         let nodes = self.input("nodes", &scene.nodes)?;
         let references = self.input("references", &scene.references)?;
@@ -146,6 +148,10 @@ impl Gpu {
             &kept.texels,
         ];
         self.check()?;
+        let bytes = kept.geometry + appearance.iter().map(|buffer| buffer.size()).sum::<u64>();
+        if bytes > self.hardship.memory {
+            return Err(self.out_of_memory("triangles", bytes));
+        }
         Ok(GpuScene {
             group,
             appearance: self.group(&self.layouts.appearance, &appearance),
@@ -158,7 +164,7 @@ impl Gpu {
                 scene.variant.entry_point()
             },
             is_plain: scene.is_plain(),
-            bytes: kept.geometry + appearance.iter().map(|buffer| buffer.size()).sum::<u64>(),
+            bytes,
             kept,
         })
     }
@@ -212,23 +218,67 @@ impl Gpu {
 
     /// A buffer that kernels read.
     pub(super) fn input<T: NoUninit>(&self, what: &'static str, data: &[T]) -> Result<wgpu::Buffer, BackendError> {
-        self.fits(what, size_of_val(data) as u64)?;
-        Ok(self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some(what),
-            contents: bytemuck::cast_slice(data),
-            usage: wgpu::BufferUsages::STORAGE,
-        }))
+        let bytes = bytemuck::cast_slice(data);
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+        let buffer = self.buffer(what, bytes.len() as u64, usage)?;
+        self.fill(&buffer, bytes);
+        Ok(buffer)
     }
 
     /// A buffer that kernels write, filled with zeros.
     pub(super) fn output(&self, what: &'static str, bytes: u64) -> Result<wgpu::Buffer, BackendError> {
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
+        self.buffer(what, bytes, usage)
+    }
+
+    /// A buffer, if there is room for it.
+    fn buffer(&self, what: &'static str, bytes: u64, usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, BackendError> {
         self.fits(what, bytes)?;
-        Ok(self.device.create_buffer(&wgpu::BufferDescriptor {
+        let scope = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(what),
             size: bytes,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
+            usage,
             mapped_at_creation: false,
-        }))
+        });
+        match pollster::block_on(scope.pop()) {
+            None => Ok(buffer),
+            Some(_) => Err(self.out_of_memory(what, bytes)),
+        }
+    }
+
+    /// That there is no room for so many bytes of something.
+    fn out_of_memory(&self, what: &'static str, bytes: u64) -> BackendError {
+        BackendError::OutOfMemory {
+            what,
+            bytes,
+            limit: self.binding_limit(),
+            adapter: self.name.clone(),
+        }
+    }
+
+    /// A small buffer with something in it. Where the device is lost it is of no use, which [`Gpu::check`] says later: wgpu's
+    /// own function for that panics.
+    pub fn filled(&self, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: contents.len() as u64,
+            usage: usage | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        self.fill(&buffer, contents);
+        buffer
+    }
+
+    /// Copies bytes, a multiple of four, into a buffer, a piece at a time: each takes as much memory once more until it is
+    /// there.
+    fn fill(&self, buffer: &wgpu::Buffer, bytes: &[u8]) {
+        for (piece, number) in bytes.chunks(PIECE).zip(0..) {
+            if number > 0 {
+                self.queue.submit([]);
+            }
+            self.queue.write_buffer(buffer, number * PIECE as u64, piece);
+        }
     }
 
     fn fits(&self, what: &'static str, bytes: u64) -> Result<(), BackendError> {
@@ -279,11 +329,7 @@ impl Gpu {
     }
 
     pub(super) fn frame_group(&self, frame: &Frame) -> wgpu::BindGroup {
-        let uniform = self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("frame"),
-            contents: bytemuck::bytes_of(frame),
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
+        let uniform = self.filled("frame", bytemuck::bytes_of(frame), wgpu::BufferUsages::UNIFORM);
         self.group(&self.layouts.frame, &[&uniform])
     }
 }

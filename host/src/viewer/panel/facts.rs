@@ -5,6 +5,7 @@ use crate::scene::{Memory, Scene};
 use crate::structure;
 use crate::viewer::caption::Caption;
 use crate::viewer::figures::Figures;
+use crate::viewer::recent::Recent;
 use crate::viewer::session::Session;
 
 /// All that the panel shows.
@@ -15,6 +16,8 @@ pub struct Facts<'a> {
     pub inventory: Option<&'a Inventory>,
     /// What its file calls its parts.
     pub names: &'a Names,
+    /// What was opened before.
+    pub recent: &'a Recent,
     /// Whether the GPU is to render.
     pub wants_gpu: bool,
     /// What was measured.

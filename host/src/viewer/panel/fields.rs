@@ -4,6 +4,7 @@ use crate::viewer::adjustment::Adjustment;
 use crate::viewer::input::Input;
 use egui::{CollapsingHeader, ComboBox, DragValue, Grid, Slider, Ui};
 use glam::Vec3;
+use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 /// Characters that fit into a row beside its name.
@@ -38,10 +39,11 @@ impl<'a> Fields<'a> {
     pub fn text(&mut self, name: &str, text: impl Into<String>) {
         let text = text.into();
         self.ui.label(name);
-        match text.char_indices().nth(LONGEST) {
-            None => self.ui.monospace(text),
-            Some((end, _)) => self.ui.monospace(format!("{}…", &text[..end])).on_hover_text(text),
-        };
+        let short = shortened(&text);
+        let label = self.ui.monospace(short.as_ref());
+        if short != text {
+            label.on_hover_text(text);
+        }
         self.ui.end_row();
     }
 
@@ -118,6 +120,11 @@ impl<'a> Fields<'a> {
         self.ui.button(text).clicked()
     }
 
+    /// Whether a button is pressed that is for what the pointer over it says.
+    pub fn button_for(&mut self, text: &str, what: &str) -> bool {
+        self.ui.button(text).on_hover_text(what).clicked()
+    }
+
     /// A row with a colour, linear RGB.
     pub fn color(&mut self, name: &str, now: Vec3, change: impl Fn(Vec3) -> Adjustment) {
         self.ui.label(name);
@@ -176,6 +183,14 @@ impl<'a> Fields<'a> {
 
     fn adjust(&mut self, adjustment: Adjustment) {
         self.asked.push(Input::Adjust(adjustment));
+    }
+}
+
+/// A text as far as it does not widen the panel.
+pub fn shortened(text: &str) -> Cow<'_, str> {
+    match text.char_indices().nth(LONGEST) {
+        None => text.into(),
+        Some((end, _)) => format!("{}…", &text[..end]).into(),
     }
 }
 

@@ -7,6 +7,8 @@ use std::collections::BTreeSet;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Section {
+    /// What is opened, and what was.
+    Files,
     /// What renders, and what rays are traced through.
     Kernel,
     /// Samples, shading, tone and all else about the picture.
@@ -23,7 +25,8 @@ pub enum Section {
 
 impl Section {
     /// All of them, the uppermost first.
-    pub const ALL: [Section; 6] = [
+    pub const ALL: [Section; 7] = [
+        Section::Files,
         Section::Kernel,
         Section::Picture,
         Section::Lights,
@@ -35,6 +38,7 @@ impl Section {
     /// What stands over it.
     pub fn title(self) -> &'static str {
         match self {
+            Section::Files => "Files",
             Section::Kernel => "Kernel",
             Section::Picture => "Picture",
             Section::Lights => "Lights",

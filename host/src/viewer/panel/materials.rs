@@ -1,7 +1,7 @@
 //! What surfaces are made of.
 
 use super::Facts;
-use super::fields::Fields;
+use super::fields::{Fields, shortened};
 use crate::viewer::adjustment::{Adjustment, MaterialAdjustment, SWITCHES};
 use egui::ComboBox;
 use oktant_shared::material::Material;
@@ -13,7 +13,7 @@ pub fn show(fields: &mut Fields<'_>, facts: &Facts<'_>, chosen: &mut usize) {
     *chosen = (*chosen).min(materials.len().saturating_sub(1));
     let Some(material) = materials.get(*chosen) else { return };
     let label = |index: usize| match facts.names.material(index) {
-        Some(name) => format!("{index}: {name}"),
+        Some(name) => format!("{index}: {}", shortened(name)),
         None => format!("{index}"),
     };
     ComboBox::from_label("material")

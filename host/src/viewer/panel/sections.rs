@@ -2,7 +2,7 @@
 
 use super::fields::Fields;
 use super::layout::{Layout, Section};
-use super::{Facts, kernel, lights, materials, picture, statistics, surroundings};
+use super::{Facts, files, kernel, lights, materials, picture, statistics, surroundings};
 use crate::viewer::input::Input;
 use egui::{CollapsingHeader, Frame, Panel, Rect, ScrollArea, Ui};
 
@@ -23,6 +23,7 @@ pub fn show(ui: &mut Ui, layout: &mut Layout, facts: &Facts<'_>, asked: &mut Vec
                     fold(ui, section, layout, |ui, material| {
                         let mut fields = Fields::new(ui, asked);
                         match section {
+                            Section::Files => files::show(&mut fields, facts),
                             Section::Kernel => kernel::show(&mut fields, facts),
                             Section::Lights => lights::show(&mut fields, facts),
                             Section::Materials => materials::show(&mut fields, facts, material),

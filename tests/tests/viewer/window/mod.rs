@@ -164,6 +164,17 @@ impl Drop for Running {
     }
 }
 
+/// Runs a command to its end, whatever that is.
+pub fn ended(command: &mut Command) -> Report {
+    let output = command.output().expect("the program starts");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    Report {
+        code: output.status.code(),
+        standard_output: text(&output.stdout),
+        standard_error: text(&output.stderr),
+    }
+}
+
 /// Plays a script to its good end.
 pub fn run(session: &Session, arguments: &[&str], script: &str) -> Report {
     session.start(arguments, script).finish()

@@ -2,10 +2,12 @@
 
 use super::*;
 use crate::names::Names;
+use crate::source::Source;
 use crate::stereo::{Stereo, StereoMode};
 use crate::view::View;
 use crate::viewer::caption::Caption;
 use crate::viewer::figures::Figures;
+use crate::viewer::recent::Recent;
 use crate::viewer::session::Session;
 use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Shape, pos2};
 use std::time::{Duration, Instant};
@@ -16,6 +18,7 @@ struct Window {
     context: Context,
     layout: Layout,
     figures: Figures,
+    recent: Recent,
 }
 
 impl Window {
@@ -36,6 +39,7 @@ impl Window {
             context,
             layout,
             figures,
+            recent: Recent::default(),
         }
     }
 
@@ -45,6 +49,7 @@ impl Window {
             session,
             inventory: None,
             names: &Names::default(),
+            recent: &self.recent,
             wants_gpu: false,
             figures: &self.figures,
             caption: Caption::default(),
@@ -156,4 +161,23 @@ fn what_is_folded_shows_nothing() {
     window.click(&session, title);
     let (_, texts) = window.after(&session, Vec::new());
     assert!(texts.iter().any(|(text, _)| text == "samples"));
+}
+
+#[test]
+fn what_was_opened_is_opened_with_a_click() {
+    let session = session();
+    let mut window = Window::new();
+    for name in ["first.ply", "a name that is longer than the panel is wide.stl"] {
+        window.recent.opened(&Source::from_path(name.into()));
+    }
+    window.after(&session, Vec::new());
+    let (_, texts) = window.after(&session, Vec::new());
+    let place = |start: &str| {
+        let found = texts.iter().find(|(text, _)| text.starts_with(start));
+        found.unwrap_or_else(|| panic!("no {start} in {texts:?}")).1
+    };
+    let (first, open, beside) = (place("first.ply"), place("open..."), place("open beside..."));
+    assert_eq!(window.click(&session, first), [Input::Recent(1)]);
+    assert_eq!(window.click(&session, open), [Input::Choose { beside: false }]);
+    assert_eq!(window.click(&session, beside), [Input::Choose { beside: true }]);
 }
