@@ -14,10 +14,11 @@ const PICTURE: &str = "oktant.png";
 pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
     arguments.look.check(&arguments.mesh.source())?;
     let look = arguments.look.clone();
+    let file = look.view_file()?;
     let options = ViewerOptions {
         source: arguments.mesh.source(),
         structure: arguments.mesh.structure.options()?,
-        look: Look::new(move |view| look.applied(view)),
+        look: Look::new(move |view, origin| look.applied_with(file.as_ref(), view, origin)),
         size: arguments.size.map(|size| [size.width, size.height]),
         backend: arguments.engine.choice(),
         module: arguments.engine.module(),

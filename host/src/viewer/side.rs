@@ -90,12 +90,15 @@ impl Application {
         !self.session.panel || self.panel.as_ref().is_none_or(|panel| panel.is_settled(now))
     }
 
-    /// Writes down how the panel is left.
+    /// Writes down how the panel is left, and the views that were saved.
     pub(super) fn remember(&self) {
         let Some(panel) = &self.panel else { return };
+        let mut views = self.state.views_now();
+        views.extend(&self.saved_views);
         let remembered = Remembered {
             panel: self.session.panel,
             layout: panel.layout.clone(),
+            views,
         };
         if let Err(sentence) = self.state.write(&remembered) {
             eprintln!("{sentence}");

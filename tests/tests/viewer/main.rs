@@ -4,6 +4,7 @@
 
 #![cfg(test)]
 
+mod camera;
 mod files;
 mod look;
 mod oracle;
