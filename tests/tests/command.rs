@@ -132,7 +132,7 @@ fn a_view_file_that_is_none_is_told_before_anything_is_loaded() {
         ("missing.toml", "missing.toml: the view file cannot be read"),
     ] {
         for command in [&["render", "no-such.ply", "-o", "a.png"][..], &["view", "no-such.ply"]] {
-            let run = run(folder.path(), &[command, &["--view", file]].concat());
+            let run = run(folder.path(), [command, &["--view", file]].concat());
             assert_eq!(run.code, Some(1), "{command:?}: {}", run.error);
             assert!(run.error.contains(words), "{words:?} is not in {:?}", run.error);
         }

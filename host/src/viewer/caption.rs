@@ -6,7 +6,7 @@ use crate::tone::{self, Curve};
 use clap::ValueEnum;
 
 /// What every key and every drag does.
-const HELP: [(&str, &str); 23] = [
+const HELP: [(&str, &str); 21] = [
     ("left, right drag", "turn the camera, the light"),
     ("middle, Shift+drag", "pan"),
     ("wheel", "come closer, go away"),
@@ -17,13 +17,11 @@ const HELP: [(&str, &str); 23] = [
     ("Shift+P, J K", "perspective or not, narrower, wider"),
     ("1 - 9, Ctrl+1 - 9", "saved views, save one"),
     ("Ctrl+C, with Shift", "copy the camera: options, TOML"),
-    ("P, M", "flat or Phong, samples a pixel"),
-    (". ,", "more or fewer reflections"),
+    ("P, M, . ,", "flat or Phong, samples, reflections"),
     ("T, + -", "next tone curve, brighter, darker"),
     ("L, ] [", "stereo, eyes farther apart, nearer"),
-    ("B", "CPU or GPU"),
     ("I, Tab, H", "figures, panel, this list on or off"),
-    ("O", "compare with the oracle"),
+    ("B, O", "CPU or GPU, compare with the oracle"),
     ("V, with Shift", "what pixels cost: next, previous"),
     ("C > <", "cells of the structure, their level"),
     ("Ctrl+click, Ctrl+Shift", "pin a ray, show a material"),

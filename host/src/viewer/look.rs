@@ -7,7 +7,10 @@ use std::sync::Arc;
 
 /// What changes the view that comes with whatever is loaded into the one that the window opens with.
 #[derive(Clone)]
-pub struct Look(Arc<dyn Fn(View, &Origin) -> View + Send + Sync>);
+pub struct Look(Arc<Change>);
+
+/// What becomes of the view of a scene whose places are counted from there.
+type Change = dyn Fn(View, &Origin) -> View + Send + Sync;
 
 impl Look {
     /// A change of views.
