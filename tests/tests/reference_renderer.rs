@@ -94,7 +94,7 @@ fn the_scenes_are_as_the_reference_has_them() {
             &parallel,
             bound,
         ));
-        parallel.ortho_height = Some(1.3);
+        parallel.ortho_height = Some(2.6);
         parallel.camera.azimuth += 40.0;
         wrong.extend(judge(
             &format!("{name} with a height of its own"),

@@ -120,7 +120,7 @@ fn saved_views_come_back_also_another_time() {
         key R
         key L
         key 4
-        expect message two eyes
+        expect message Two eyes
         set stereo none
         key 4
         camera arguments",
@@ -132,7 +132,7 @@ fn saved_views_come_back_also_another_time() {
     let later = play("wait settled\nview recall 4\ncamera arguments");
     assert_eq!(later.trim_end(), saved);
     session.write("other.toml", "[[sphere]]\n");
-    let other = play("wait settled\nopen other.toml\nwait settled\nkey 4\nexpect message no view of this scene");
+    let other = play("wait settled\nopen other.toml\nwait settled\nkey 4\nexpect message No view of this scene");
     assert_eq!(other, "");
 }
 
