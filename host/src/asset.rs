@@ -3,6 +3,7 @@
 use crate::mesh::Mesh;
 use crate::model::{CLAY, Model, needs_coordinates, plain_material};
 use crate::names::Names;
+use crate::projection::Projection;
 use crate::source::Setting;
 use crate::view::View;
 use glam::{Vec2, Vec3};
@@ -30,20 +31,29 @@ pub struct Asset {
     /// Empty where the file has none.
     pub lights: Vec<Light>,
     /// From where the file wants to be seen.
-    pub camera: Option<Pinhole>,
+    pub camera: Option<FileCamera>,
     /// The files that it was read from.
     pub files: Vec<PathBuf>,
 }
 
-/// A pinhole camera of a file.
+/// A camera of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pinhole {
+pub struct FileCamera {
     /// Where it is, scene units.
     pub eye: Vec3,
     /// Unit vector along which it looks.
     pub forward: Vec3,
-    /// Vertical field of view, degrees, 1 to 170.
-    pub field_of_view: f32,
+    /// How much it sees.
+    pub lens: Lens,
+}
+
+/// How much a camera of a file sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lens {
+    /// In perspective: vertical field of view, degrees, 1 to 170.
+    FieldOfView(f32),
+    /// Without it: from the lower edge of the picture to the upper one, scene units, above 0.
+    Height(f32),
 }
 
 impl Asset {
@@ -83,11 +93,18 @@ impl Asset {
             model.texels = self.texels;
         }
         if let Some(camera) = self.camera {
-            view.field_of_view = camera.field_of_view;
+            match camera.lens {
+                Lens::FieldOfView(degrees) => view.field_of_view = degrees,
+                Lens::Height(_) => view.projection = Projection::Orthographic,
+            }
             // Where it looks past everything, it circles what is as far away as the middle of all.
             let ahead = (whole.center - camera.eye).dot(camera.forward);
             let distance = if ahead > 0.0 { ahead } else { whole.radius };
-            model.focus = Some(view.look(camera.eye + camera.forward * distance, camera.forward * -distance));
+            let focus = view.look(camera.eye + camera.forward * distance, camera.forward * -distance);
+            model.focus = Some(match camera.lens {
+                Lens::FieldOfView(_) => focus,
+                Lens::Height(height) => view.show_height(focus, height),
+            });
         }
         if let Some(first) = lights.first() {
             view.shine(first, model.focus.unwrap_or(whole));

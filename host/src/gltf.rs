@@ -114,7 +114,7 @@ fn parse_file(bytes: &[u8], name: &str, folder: Option<&Path>, progress: Progres
         asset.lights.push(light::light(&document, place, shift, &mut notices)?);
     }
     if let Some(place) = &walk.camera {
-        asset.camera = nodes::pinhole(&document, place, shift, &mut notices)?;
+        asset.camera = nodes::camera(&document, place, shift, &mut notices)?;
     }
     files.extend(images.files);
     asset.files = files;

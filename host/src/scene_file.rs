@@ -1,7 +1,7 @@
 //! Scene files: TOML that a person can write by hand. docs/scene-files.md describes every field.
 
 mod assembly;
-mod camera;
+pub(crate) mod camera;
 mod checkerboard;
 mod color;
 mod cuboid;

@@ -2,6 +2,7 @@
 
 use crate::media::media_at;
 use crate::model::Focus;
+use crate::projection::Projection;
 use crate::sampling::{Filter, Pattern, Samples};
 use crate::scene::Scene;
 use crate::stereo::Stereo;
@@ -64,8 +65,13 @@ pub struct View {
     pub light: Place,
     /// What the camera looks at, and circles, as an offset from the centre of the focus in its radii.
     pub target: Vec3,
+    /// Whether there is perspective.
+    pub projection: Projection,
     /// Vertical field of view, degrees.
     pub field_of_view: f32,
+    /// From the lower edge of an orthographic picture to the upper one, in radii of the focus; where it is not said, what a
+    /// picture in perspective shows at the distance of what the camera looks at.
+    pub ortho_height: Option<f32>,
     /// Which way is up.
     pub up: Up,
     /// How surfaces get their normals.
@@ -112,7 +118,9 @@ impl Default for View {
                 distance: 6.0,
             },
             target: Vec3::ZERO,
+            projection: Projection::Perspective,
             field_of_view: 40.0,
+            ortho_height: None,
             up: Up::Y,
             shading: Shading::Phong,
             samples: Samples::One,
@@ -179,12 +187,13 @@ impl View {
             .map_or([width, height], |stereo| stereo.eye_size([width, height]));
         let focus = scene.focus;
         let target = focus.center + self.target * focus.radius;
-        let mut camera = Camera::on_orbit(
-            &self.orbit(&self.camera, target, focus),
-            self.field_of_view,
-            width,
-            height,
-        );
+        let orbit = self.orbit(&self.camera, target, focus);
+        let mut camera = match self.projection {
+            Projection::Perspective => Camera::on_orbit(&orbit, self.field_of_view, width, height),
+            Projection::Orthographic => {
+                Camera::orthographic_on_orbit(&orbit, self.seen_height() * focus.radius, width, height)
+            }
+        };
         if let Some(stereo) = self.stereo {
             stereo.part_eyes(&mut camera);
         }

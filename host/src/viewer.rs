@@ -6,6 +6,7 @@
 
 mod adjustment;
 mod application;
+mod bearing;
 mod caption;
 mod compose;
 mod depth_paces;
@@ -14,6 +15,7 @@ mod draft;
 mod draw;
 mod event;
 mod figures;
+mod flying;
 mod gpu_memory;
 mod gpu_screen;
 mod grammar;
@@ -45,6 +47,7 @@ mod recovery;
 mod remembered;
 mod renderer;
 mod report;
+mod saved_views;
 mod saving;
 mod schedule;
 mod screen;
@@ -64,6 +67,7 @@ mod turns;
 mod watcher;
 mod work;
 mod worker;
+mod written_camera;
 
 pub use crate::accident::Accident;
 pub use look::Look;

@@ -76,6 +76,7 @@ mod tests {
     use super::*;
     use crate::balls;
     use crate::progress::silent;
+    use crate::projection::Projection;
     use crate::structure::StructureOptions;
     use crate::view::View;
     use oktant_shared::parts::TraversalKind;
@@ -97,8 +98,18 @@ mod tests {
     /// Oracle: the camera's own rays. Through each pixel that is drawn goes a ray that comes near to an edge.
     #[test]
     fn lines_are_where_the_camera_sees_the_edges() {
+        for projection in Projection::ALL {
+            let view = View {
+                projection,
+                ..View::default()
+            };
+            lines_are_seen(&view);
+        }
+    }
+
+    fn lines_are_seen(view: &View) {
         let scene = Scene::new(&balls::balls(), &StructureOptions::default(), &silent).unwrap();
-        let frame = View::default().frame(&scene, 160, 120);
+        let frame = view.frame(&scene, 160, 120);
         let cell = cell(scene.low, scene.high);
         let layer = drawn(&[cell], &frame);
         let mut drawn = 0;
@@ -108,7 +119,7 @@ mod tests {
                 .camera
                 .ray(index as f32 % 160.0 + 0.5, (index / 160) as f32 + 0.5, 0.0);
             let nearest = edges(&cell).map(|[a, b]| distance(ray.origin, ray.direction, a, b));
-            let pixel = 2.0 * frame.camera.up.length() / 120.0 * frame.camera.convergence;
+            let pixel = view.seen_height() * scene.focus.radius / 120.0;
             let distance = nearest.into_iter().fold(f32::INFINITY, f32::min);
             assert!(distance < 2.0 * pixel, "pixel {index} is {distance} off");
             drawn += 1;

@@ -79,7 +79,7 @@ pub struct Frame {
     pub reserved_b: u32,
 }
 
-const _: () = assert!(size_of::<Frame>() == 352);
+const _: () = assert!(size_of::<Frame>() == 368);
 
 /// From this bit on, [`Frame::features`] holds the number of the parts that rays are traced with.
 pub const PARTS_SHIFT: u32 = 24;

@@ -230,6 +230,7 @@ pub fn camera(eye: Vec3, target: Vec3, field_of_view: f32, width: u32, height: u
         eye_shift: 0.0,
         forward,
         convergence: eye.distance(target),
+        ..Camera::zeroed()
     }
 }
 

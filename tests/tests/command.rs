@@ -121,6 +121,25 @@ fn wrong_arguments_are_refused_with_code_2() {
 }
 
 #[test]
+fn a_view_file_that_is_none_is_told_before_anything_is_loaded() {
+    let folder = folder();
+    fs::write(folder.path().join("v.toml"), "[camera]\nfov = 200\n").unwrap();
+    for (file, words) in [
+        (
+            "v.toml",
+            "v.toml:2:7: camera.fov is 200; give a number of degrees from 1 to 170",
+        ),
+        ("missing.toml", "missing.toml: the view file cannot be read"),
+    ] {
+        for command in [&["render", "no-such.ply", "-o", "a.png"][..], &["view", "no-such.ply"]] {
+            let run = run(folder.path(), [command, &["--view", file]].concat());
+            assert_eq!(run.code, Some(1), "{command:?}: {}", run.error);
+            assert!(run.error.contains(words), "{words:?} is not in {:?}", run.error);
+        }
+    }
+}
+
+#[test]
 fn options_that_a_scene_gives_no_meaning_are_refused_with_code_2() {
     let folder = folder();
     fs::write(folder.path().join("a.toml"), "[[sphere]]\n").unwrap();
@@ -131,6 +150,14 @@ fn options_that_a_scene_gives_no_meaning_are_refused_with_code_2() {
         ("b.toml", &["--stereo", "none", "--convergence", "2"], "--stereo"),
         ("b.toml", &["--size", "9x8"], "10x8"),
         ("balls", &["--convergence", "2"], "--stereo"),
+        ("b.toml", &["--projection", "orthographic"], "--stereo none"),
+        (
+            "balls",
+            &["--projection", "orthographic", "--stereo", "rows"],
+            "--projection perspective",
+        ),
+        ("balls", &["--ortho-height", "2"], "--projection orthographic"),
+        ("balls", &["--target=1,2"], "three numbers"),
         ("balls", &["--distance", "-1"], "0.001 to 100000"),
     ] {
         let arguments = [&["render", source, "-o", "a.png", "--backend", "cpu"], options].concat();

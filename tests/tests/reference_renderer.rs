@@ -7,6 +7,7 @@ use oktant::backend::cpu::Cpu;
 use oktant::compare::{Shot, compare};
 use oktant::oracle::whitted::{Reference, Takes};
 use oktant::progress::silent;
+use oktant::projection::Projection;
 use oktant::sampling::{Filter, Pattern, Samples};
 use oktant::scene::Scene;
 use oktant::seen::Seen;
@@ -83,6 +84,24 @@ fn the_scenes_are_as_the_reference_has_them() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../assets/scenes/{name}.toml"));
         let setting = load(&Source::Scene(path));
         wrong.extend(judge(name, &setting, &setting.view, bound));
+        let mut parallel = View {
+            projection: Projection::Orthographic,
+            ..setting.view
+        };
+        wrong.extend(judge(
+            &format!("{name} without perspective"),
+            &setting,
+            &parallel,
+            bound,
+        ));
+        parallel.ortho_height = Some(2.6);
+        parallel.camera.azimuth += 40.0;
+        wrong.extend(judge(
+            &format!("{name} with a height of its own"),
+            &setting,
+            &parallel,
+            bound,
+        ));
     }
     let plain = load(&Source::default());
     for shading in [Shading::Flat, Shading::Phong] {

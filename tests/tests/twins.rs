@@ -13,6 +13,7 @@ use oktant::mesh::Mesh;
 use oktant::mesh_source::MeshSource;
 use oktant::model::Model;
 use oktant::progress::silent;
+use oktant::projection::Projection;
 use oktant::sampling::Samples;
 use oktant::scene::Scene;
 use oktant::structure::StructureOptions;
@@ -43,8 +44,8 @@ fn open(module: ModulePath) -> Arc<Gpu> {
     Arc::new(gpu)
 }
 
-/// Three cameras and lights: from in front, from behind and above, and close by.
-fn views() -> [View; 3] {
+/// Cameras and lights: from in front, from behind and above, close by, and without perspective.
+fn views() -> [View; 4] {
     let view = |azimuth, elevation, distance, light| View {
         camera: Place {
             azimuth,
@@ -63,6 +64,11 @@ fn views() -> [View; 3] {
         View {
             shading: Shading::Flat,
             ..view(-70.0, 5.0, 1.4, -20.0)
+        },
+        View {
+            projection: Projection::Orthographic,
+            ortho_height: Some(1.7),
+            ..view(33.0, 25.0, 2.0, 60.0)
         },
     ]
 }

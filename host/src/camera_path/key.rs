@@ -27,6 +27,8 @@ pub struct Key {
     pub distance: Option<Radii>,
     /// Vertical field of view, degrees, 1 to 170.
     pub fov: Option<FieldOfView>,
+    /// What an orthographic picture shows from its lower edge to the upper one, in radii.
+    pub ortho_height: Option<Radii>,
     /// What it looks at and circles, as an offset in radii along the scene's axes.
     pub target: Option<Vector>,
     /// Where the first light stands, degrees.
@@ -50,6 +52,7 @@ impl Key {
         set(&mut view.camera.elevation, self.elevation.map(|degrees| degrees.0));
         set(&mut view.camera.distance, self.distance.map(|radii| radii.0));
         set(&mut view.field_of_view, self.fov.map(|degrees| degrees.0));
+        view.ortho_height = self.ortho_height.map(|radii| radii.0).or(view.ortho_height);
         set(&mut view.target, self.target.map(|offset| offset.0.as_vec3()));
         set(
             &mut view.light.azimuth,

@@ -4,7 +4,7 @@ use crate::view::View;
 use glam::{DVec3, dvec3};
 
 /// How many there are.
-pub const NUMBERS: usize = 11;
+pub const NUMBERS: usize = 12;
 
 /// All of them, in the order of [`Pose::of`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +21,7 @@ const RANGES: [[f64; 2]; NUMBERS] = {
         ELEVATION,
         DISTANCE,
         [1.0, 170.0],
+        DISTANCE,
         OFFSET,
         OFFSET,
         OFFSET,
@@ -41,6 +42,7 @@ impl Pose {
                 view.camera.elevation,
                 view.camera.distance,
                 view.field_of_view,
+                view.seen_height(),
                 target.x,
                 target.y,
                 target.z,
@@ -64,6 +66,7 @@ impl Pose {
             elevation,
             distance,
             fov,
+            height,
             x,
             y,
             z,
@@ -78,6 +81,8 @@ impl Pose {
         view.camera.elevation = elevation as f32;
         view.camera.distance = distance as f32;
         view.field_of_view = fov as f32;
+        // One in perspective has none of its own.
+        view.ortho_height = view.is_orthographic().then_some(height as f32);
         view.target = target.as_vec3();
         view.light.azimuth = light_azimuth as f32;
         view.light.elevation = light_elevation as f32;
@@ -90,12 +95,19 @@ impl Pose {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::projection::Projection;
 
     #[test]
     fn numbers_come_back_within_their_ranges() {
-        let numbers = [720.5, 80.0, 2.0, 30.0, 1.0, -2.0, 3.0, -400.0, -60.0, 7.0, 2.5];
-        let view = Pose(numbers).applied(&View::default());
+        let numbers = [720.5, 80.0, 2.0, 30.0, 4.5, 1.0, -2.0, 3.0, -400.0, -60.0, 7.0, 2.5];
+        let parallel = View {
+            projection: Projection::Orthographic,
+            ..View::default()
+        };
+        let view = Pose(numbers).applied(&parallel);
         assert_eq!(Pose::of(&view).0, numbers);
+        let view = Pose(numbers).applied(&View::default());
+        assert_eq!(view.ortho_height, None, "perspective says how high it is");
         let far = Pose([1e3; NUMBERS].map(|number: f64| -number)).applied(&View::default());
         assert_eq!((far.camera.azimuth, far.camera.elevation), (-1000.0, -90.0));
         assert_eq!((far.camera.distance, far.field_of_view), (1e-3, 1.0));

@@ -10,6 +10,7 @@ use oktant::picture::Picture;
 use oktant::progress::Progress;
 use oktant::scene::Scene;
 use oktant::seen::Seen;
+use oktant::standpoint::Origin;
 use oktant::stereo::StereoMode;
 use oktant::view::View;
 use oktant_shared::frame::Frame;
@@ -54,8 +55,13 @@ impl Prepared {
     ) -> Result<Self, Failure> {
         let loaded = mesh.load()?;
         let size = size.or(loaded.size.map(Size::from)).unwrap_or_else(Size::preferred);
-        let view = look.applied(loaded.view);
+        let origin = Origin {
+            focus: loaded.scene.focus,
+            shift: loaded.shift,
+        };
+        let view = look.applied_with(look.view_file()?.as_ref(), loaded.view, &origin);
         look.check_eyes(view.stereo.is_some())?;
+        look.check_projection(&view)?;
         look.check_sampling(view.adaptive)?;
         check_halves(&view, size)?;
         Ok(Prepared {

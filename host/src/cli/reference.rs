@@ -8,6 +8,7 @@ use super::scene_source::refused;
 use oktant::effort::Effort;
 use oktant::oracle::whitted::{Reference, Takes};
 use oktant::seen::Seen;
+use oktant::standpoint::Origin;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -38,8 +39,14 @@ pub fn run(arguments: &RenderArguments, takes: Takes) -> Result<(), Failure> {
         .size
         .or(setting.size.map(Size::from))
         .unwrap_or_else(Size::preferred);
-    let view = look.applied(setting.view);
+    let mesh = &setting.model.mesh;
+    let origin = Origin {
+        focus: setting.model.focus.unwrap_or_else(|| mesh.bounding_sphere()),
+        shift: mesh.shift,
+    };
+    let view = look.applied_with(look.view_file()?.as_ref(), setting.view, &origin);
     look.check_eyes(view.stereo.is_some())?;
+    look.check_projection(&view)?;
     look.check_sampling(false)?;
     output = for_view(output, &view, |is_pair| create(files, format, is_pair))?;
     check_halves(&view, size)?;

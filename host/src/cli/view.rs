@@ -15,10 +15,11 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
     let source = arguments.mesh.source()?;
     arguments.look.check(&source)?;
     let look = arguments.look.clone();
+    let file = look.view_file()?;
     let options = ViewerOptions {
         source,
         structure: arguments.mesh.structure.options()?,
-        look: Look::new(move |view| look.applied(view)),
+        look: Look::new(move |view, origin| look.applied_with(file.as_ref(), view, origin)),
         size: arguments.size.map(|size| [size.width, size.height]),
         backend: arguments.engine.choice(),
         module: arguments.engine.module(),

@@ -263,12 +263,19 @@ pub(super) struct Image {
 #[serde(default)]
 pub(super) struct Camera {
     pub(super) perspective: Option<Perspective>,
+    pub(super) orthographic: Option<Orthographic>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Perspective {
     pub(super) yfov: f64,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Orthographic {
+    pub(super) ymag: f64,
 }
 
 impl Document {

@@ -1,9 +1,9 @@
 //! The tree of nodes: where meshes, lights and the camera are.
 
-use super::document::{Document, Node, get};
+use super::document::{Document, Node, Orthographic, Perspective, get};
 use super::fault::{Fault, Place};
 use super::notices::Notices;
-use crate::asset::Pinhole;
+use crate::asset::{FileCamera, Lens};
 use glam::{DMat4, DQuat, DVec3, DVec4};
 
 /// Something at a node.
@@ -96,26 +96,37 @@ fn own_transform(node: &Node) -> DMat4 {
 const LEVEL: f64 = 0.999_848;
 
 /// The camera at a node; none where it is of a kind that there is not.
-pub(super) fn pinhole(
+pub(super) fn camera(
     document: &Document,
     placed: &Placed,
     shift: DVec3,
     notices: &mut Notices,
-) -> Result<Option<Pinhole>, Fault> {
+) -> Result<Option<FileCamera>, Fault> {
     let camera = get(&document.cameras, "cameras", placed.id)?;
     let place = Place::of("cameras", placed.id);
-    let Some(perspective) = &camera.perspective else {
-        notices.add("orthographic cameras");
+    let lens = if let Some(Perspective { yfov }) = camera.perspective {
+        if !(yfov > 0.0 && yfov < std::f64::consts::PI) {
+            return Err(Fault::Value {
+                place: place.field("perspective.yfov"),
+                value: yfov,
+                wanted: "an angle above 0 and below pi, radians",
+            });
+        }
+        Lens::FieldOfView(yfov.to_degrees().clamp(1.0, 170.0) as f32)
+    } else if let Some(Orthographic { ymag }) = camera.orthographic {
+        // A negative one would turn the picture over; the format discourages that, and nobody here does it.
+        let half_height = ymag.abs() as f32;
+        if !(half_height >= f32::MIN_POSITIVE && half_height.is_finite()) {
+            return Err(Fault::Value {
+                place: place.field("orthographic.ymag"),
+                value: ymag,
+                wanted: "half a height above 0, scene units",
+            });
+        }
+        Lens::Height(2.0 * half_height)
+    } else {
         return Ok(None);
     };
-    let yfov = perspective.yfov;
-    if !(yfov > 0.0 && yfov < std::f64::consts::PI) {
-        return Err(Fault::Value {
-            place: place.field("perspective.yfov"),
-            value: yfov,
-            wanted: "an angle above 0 and below pi, radians",
-        });
-    }
     let along = |axis: DVec4| (placed.transform * axis).truncate().try_normalize();
     let (Some(forward), Some(above)) = (along(DVec4::NEG_Z), along(DVec4::Y)) else {
         return Ok(None);
@@ -125,9 +136,9 @@ pub(super) fn pinhole(
     if above.dot(level) < LEVEL {
         notices.add("the roll of cameras");
     }
-    Ok(Some(Pinhole {
+    Ok(Some(FileCamera {
         eye: (placed.transform.w_axis.truncate() - shift).as_vec3(),
         forward: forward.as_vec3(),
-        field_of_view: yfov.to_degrees().clamp(1.0, 170.0) as f32,
+        lens,
     }))
 }

@@ -108,6 +108,13 @@ pub fn assemble(
     let focus = description.camera.apply(&mut view, whole)?;
     description.render.apply(&mut view)?;
     view.stereo = description.stereo.as_ref().map(|stereo| stereo.build());
+    if view.stereo.is_some() && view.is_orthographic() {
+        let place = Place::of("stereo");
+        return Err(Fault::new(
+            &place,
+            Reason::Excludes("camera.projection = \"orthographic\""),
+        ));
+    }
     description.render.check_halves(&view)?;
     let lights = super::light::build_all(description.light.as_deref(), &mut view, focus.unwrap_or(whole))?;
     let (names, materials): (Vec<_>, Vec<_>) = assembly.palette.into_used().into_iter().unzip();

@@ -17,6 +17,7 @@ use super::recent::Recent;
 use super::recovery::Recovery;
 use super::remembered::StateFile;
 use super::renderer::Renderer;
+use super::saved_views::SavedViews;
 use super::schedule::Schedule;
 use super::screen::Screen;
 use super::seeing::Seeing;
@@ -35,6 +36,7 @@ use crate::names::Names;
 use crate::preferences::Preferences;
 use crate::scene::Scene;
 use crate::source::Source;
+use crate::standpoint::Origin;
 use crate::structure::StructureOptions;
 use crate::view::View;
 use std::collections::VecDeque;
@@ -53,6 +55,12 @@ pub struct Application {
     pub(super) options: ViewerOptions,
     /// What is remembered from the last time.
     pub(super) state: StateFile,
+    /// Views that were saved since.
+    pub(super) saved_views: SavedViews,
+    /// The clipboard, once something was put on it.
+    pub(super) clipboard: Option<arboard::Clipboard>,
+    /// Until when the camera has flown, while it does.
+    pub(super) flown: Option<Instant>,
     pub(super) mailbox: Mailbox,
     pub(super) session: Session,
     pub(super) translation: Translation,
@@ -150,8 +158,12 @@ impl Application {
         let (state, complaint) = StateFile::read(options.state.clone());
         let mut application = Application {
             start,
+            state,
+            saved_views: SavedViews::default(),
+            clipboard: None,
+            flown: None,
             session: Session::new(
-                options.look.applied(View::default()),
+                options.look.applied(View::default(), &Origin::default()),
                 options.size.unwrap_or(Preferences::of_process().size),
                 1.0,
             ),
@@ -274,9 +286,12 @@ impl Application {
             self.take_input(input, now);
             return;
         }
+        // What is held down has led somewhere until now, and leads elsewhere from now on.
+        self.fly(now);
         if let Some(input) = self.translation.translate(event, now) {
             self.take_input(input, now);
         }
+        self.fly(now);
     }
 
     /// Takes an input; the window says why where it cannot be.
@@ -306,6 +321,9 @@ impl Application {
             Effect::Choose { beside } => self.choose_files(beside),
             Effect::Recent(index) => return self.open_recent(index),
             Effect::SwitchBackend => self.switch_backend(now),
+            Effect::ViewSaved(number) => self.keep_view(number),
+            Effect::Copy(form) => self.copy_camera(form),
+            Effect::Land => self.land(now),
             Effect::Refused(reason) => return Err(reason),
             Effect::Quit => self.quits = true,
         }

@@ -9,26 +9,26 @@ use clap::ValueEnum;
 const HELP: [(&str, &str); 22] = [
     ("left, right drag", "turn the camera, the light"),
     ("middle, Shift+drag", "pan"),
-    ("Ctrl+Shift+click", "show a material in the panel"),
     ("wheel", "come closer, go away"),
     ("double click, F", "fit everything into the window"),
     ("R", "back to the first view"),
-    ("P", "flat or Phong shading"),
-    ("M", "1, 4, 16 or 64 samples a pixel"),
-    (". ,", "more or fewer reflections"),
+    ("W A S D Q E, G", "fly, circle what is there"),
+    ("X Y Z, with Shift", "look along an axis, from behind"),
+    ("Shift+P, J K", "perspective or not, narrower, wider"),
+    ("1 - 9, Ctrl+1 - 9", "saved views, save one"),
+    ("Ctrl+C, with Shift", "copy the camera: options, TOML"),
+    ("P, M, . ,", "flat or Phong, samples, reflections"),
     ("T, + -", "next tone curve, brighter, darker"),
-    ("3", "next kind of stereo"),
-    ("] [", "eyes farther apart, nearer"),
-    ("B", "CPU or GPU"),
-    ("I, Tab", "figures, panel on or off"),
-    ("O", "compare with the oracle"),
-    ("V, Shift+V", "what pixels cost: next, previous"),
+    ("L, ] [", "stereo, eyes farther apart, nearer"),
+    ("I, Tab, H", "figures, panel, this list on or off"),
+    ("B, O", "CPU or GPU, compare with the oracle"),
+    ("V, with Shift", "what pixels cost: next, previous"),
     ("C > <", "cells of the structure, their level"),
-    ("Ctrl+click", "pin a ray"),
+    ("Ctrl+click, Ctrl+Shift", "pin a ray, show a material"),
     ("Ctrl+S", "save the picture"),
     ("Ctrl+O, Ctrl+R", "open files, recent files"),
     ("drop files", "open them; Shift: beside these"),
-    ("H, ?, Esc", "this list; unpin, quit"),
+    ("Esc", "circle, unpin, quit"),
 ];
 
 /// What the figures are about.
@@ -52,6 +52,10 @@ pub struct Caption {
     pub depth: u32,
     /// How the light is made to fit the screen.
     pub tone: tone::Tone,
+    /// From the lower edge of the picture to the upper one, scene units, where rays are parallel.
+    pub parallel: Option<f32>,
+    /// How fast the camera flies, scene units a second, if it does.
+    pub flight: Option<f32>,
     /// How two eyes share the screen, and their distance in scene units.
     pub stereo: Option<(StereoMode, f32)>,
     /// What renders.
@@ -91,6 +95,12 @@ pub fn figures(caption: &Caption) -> Vec<Line> {
     ];
     let tone::Tone { exposure, curve } = caption.tone;
     let screen = [
+        caption
+            .flight
+            .map_or_else(String::new, |speed| format!("flying, {} units/s", significant(speed))),
+        caption.parallel.map_or_else(String::new, |height| {
+            format!("orthographic, {} high", significant(height))
+        }),
         if curve == Curve::None {
             String::new()
         } else {
@@ -254,6 +264,8 @@ mod tests {
             phong: true,
             depth: 5,
             tone: tone::Tone::default(),
+            parallel: None,
+            flight: None,
             stereo: None,
             backend: "CPU, 2 threads".into(),
             under_way: Vec::new(),
@@ -277,6 +289,12 @@ mod tests {
             stereo: Some((StereoMode::SideBySide, 0.093_333)),
             ..Caption::default()
         };
+        let flying = Caption {
+            flight: Some(0.5),
+            parallel: Some(12.5),
+            ..Caption::default()
+        };
+        assert_eq!(text(&flying)[3], "flying, 0.500 units/s   orthographic, 12.5 high");
         assert_eq!(
             text(&waiting)[1..],
             [
@@ -292,11 +310,17 @@ mod tests {
     #[test]
     fn every_key_is_listed() {
         let help: Vec<String> = help().into_iter().map(|line| line.text).collect();
-        for key in KEYS.into_iter().filter(|key| !["=", "Escape"].contains(key)) {
+        let has = |line: &str, key: &str| {
+            line.split(' ')
+                .any(|word| word == key || word.strip_suffix(',') == Some(key))
+        };
+        // Others do the same as these.
+        let is_other = |key: &&str| ["=", "?", "Escape", "Ctrl+9"].contains(key) || key.contains("Keypad");
+        for key in KEYS.into_iter().filter(|key| !is_other(key)) {
+            let bare = key.replace("Shift+", "");
+            let is_with_shift = |line: &str| bare != key && has(line, &bare) && line.contains("with Shift");
             assert!(
-                help.iter().any(|line| line
-                    .split(' ')
-                    .any(|word| word == key || word.strip_suffix(',') == Some(key))),
+                help.iter().any(|line| has(line, key) || is_with_shift(line)),
                 "{key} in {help:#?}"
             );
         }

@@ -140,6 +140,8 @@ impl Application {
             phong: self.session.view.shading == Shading::Phong,
             depth: self.session.view.depth,
             tone: self.session.view.tone,
+            parallel: self.session.parallel_height(),
+            flight: self.session.flying_speed(),
             stereo: self
                 .session
                 .view

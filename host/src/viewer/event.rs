@@ -27,6 +27,8 @@ pub enum Event {
     Modifiers(Modifiers),
     /// A key went down (not by repetition).
     Key(Key),
+    /// A key went up.
+    Released(Key),
     /// Files were dropped together.
     Dropped(Vec<PathBuf>),
     /// The window's inside has another size, in physical pixels, or another scale factor.
@@ -67,11 +69,26 @@ pub struct Modifiers {
 pub enum Key {
     /// One with a character, letters in lower case.
     Character(char),
+    /// A digit of the keypad.
+    Keypad(char),
     /// Esc.
     Escape,
     /// Tab.
     Tab,
 }
+
+/// The keypad's digits from 1 on.
+const KEYPAD: [KeyCode; 9] = [
+    KeyCode::Numpad1,
+    KeyCode::Numpad2,
+    KeyCode::Numpad3,
+    KeyCode::Numpad4,
+    KeyCode::Numpad5,
+    KeyCode::Numpad6,
+    KeyCode::Numpad7,
+    KeyCode::Numpad8,
+    KeyCode::Numpad9,
+];
 
 /// Pixels that a touchpad scrolls for one notch of a wheel.
 const PIXELS_PER_NOTCH: f64 = 40.0;
@@ -104,8 +121,12 @@ impl Event {
                     control: state.control_key() || state.super_key(),
                 })
             }
-            WindowEvent::KeyboardInput { event, .. } if event.state == ElementState::Pressed && !event.repeat => {
-                Event::Key(key(&event.logical_key, event.physical_key)?)
+            WindowEvent::KeyboardInput { event, .. } if !event.repeat => {
+                let key = key(&event.logical_key, event.physical_key)?;
+                match event.state {
+                    ElementState::Pressed => Event::Key(key),
+                    ElementState::Released => Event::Released(key),
+                }
             }
             WindowEvent::DroppedFile(path) => Event::Dropped(vec![path.clone()]),
             WindowEvent::Resized(size) => Event::Resized {
@@ -124,6 +145,12 @@ impl Event {
 }
 
 fn key(logical: &WinitKey, physical: PhysicalKey) -> Option<Key> {
+    // Whether digits or arrows are on them: the lamp of NumLock is not looked at.
+    if let PhysicalKey::Code(code) = physical
+        && let Some(digit) = KEYPAD.iter().position(|known| *known == code)
+    {
+        return Some(Key::Keypad(char::from(b'1' + digit as u8)));
+    }
     match logical {
         WinitKey::Named(NamedKey::Escape) => return Some(Key::Escape),
         WinitKey::Named(NamedKey::Tab) => return Some(Key::Tab),
@@ -140,19 +167,39 @@ fn key(logical: &WinitKey, physical: PhysicalKey) -> Option<Key> {
         return None;
     };
     Some(Key::Character(match code {
+        KeyCode::KeyA => 'a',
         KeyCode::KeyB => 'b',
         KeyCode::KeyC => 'c',
+        KeyCode::KeyD => 'd',
+        KeyCode::KeyE => 'e',
         KeyCode::KeyF => 'f',
+        KeyCode::KeyG => 'g',
         KeyCode::KeyH => 'h',
         KeyCode::KeyI => 'i',
+        KeyCode::KeyJ => 'j',
+        KeyCode::KeyK => 'k',
+        KeyCode::KeyL => 'l',
         KeyCode::KeyM => 'm',
         KeyCode::KeyO => 'o',
         KeyCode::KeyP => 'p',
+        KeyCode::KeyQ => 'q',
         KeyCode::KeyR => 'r',
         KeyCode::KeyS => 's',
         KeyCode::KeyT => 't',
         KeyCode::KeyV => 'v',
+        KeyCode::KeyW => 'w',
+        KeyCode::KeyX => 'x',
+        KeyCode::KeyY => 'y',
+        KeyCode::KeyZ => 'z',
+        KeyCode::Digit1 => '1',
+        KeyCode::Digit2 => '2',
         KeyCode::Digit3 => '3',
+        KeyCode::Digit4 => '4',
+        KeyCode::Digit5 => '5',
+        KeyCode::Digit6 => '6',
+        KeyCode::Digit7 => '7',
+        KeyCode::Digit8 => '8',
+        KeyCode::Digit9 => '9',
         KeyCode::Equal => '=',
         KeyCode::Minus => '-',
         KeyCode::Period => '.',
@@ -244,6 +291,18 @@ mod tests {
             key(&WinitKey::Named(NamedKey::Escape), code(KeyCode::Escape)),
             Some(Key::Escape)
         );
+        assert_eq!(
+            key(&character("1"), code(KeyCode::Digit1)),
+            Some(Key::Character('1')),
+            "a digit above the letters"
+        );
+        for logical in [character("5"), WinitKey::Named(NamedKey::Clear)] {
+            assert_eq!(
+                key(&logical, code(KeyCode::Numpad5)),
+                Some(Key::Keypad('5')),
+                "the keypad, with NumLock and without"
+            );
+        }
         assert_eq!(key(&WinitKey::Named(NamedKey::Tab), code(KeyCode::Tab)), Some(Key::Tab));
         assert_eq!(key(&WinitKey::Named(NamedKey::Home), code(KeyCode::Home)), None);
     }

@@ -1,14 +1,18 @@
 //! The words of a script's lines. docs/viewer.md describes them.
 
 use super::adjustment::Adjustment;
-use super::event::{Button, Key};
+use super::bearing::Bearing;
+use super::event::{Button, Key, Modifiers};
 use super::input::Input;
+use super::session::PLACES;
 use super::step::{Expectation, Step};
+use super::written_camera::Form;
 use crate::insight::Aspect;
 use crate::nearest::nearest;
+use glam::Vec3;
 use std::path::PathBuf;
 
-const STEPS: [&str; 26] = [
+const STEPS: [&str; 30] = [
     "drag",
     "click",
     "pick",
@@ -32,6 +36,10 @@ const STEPS: [&str; 26] = [
     "remove",
     "lose",
     "print",
+    "camera",
+    "stand",
+    "fly",
+    "view",
     "wait",
     "expect",
     "quit",
@@ -39,10 +47,75 @@ const STEPS: [&str; 26] = [
 const DRAGS: [&str; 4] = ["left", "right", "middle", "shift+left"];
 const WAITS: [&str; 5] = ["settled", "frames", "samples", "reloaded", "milliseconds"];
 const EXPECTATIONS: [&str; 4] = ["first-picture", "backend", "triangles", "message"];
-/// The keys that mean something.
-pub const KEYS: [&str; 28] = [
-    "F", "R", "P", "M", "T", "+", "=", "-", ".", ",", "3", "[", "]", "B", "H", "?", "I", "O", "V", "C", ">", "<",
-    "Ctrl+S", "Ctrl+O", "Ctrl+R", "Tab", "Esc", "Escape",
+const HEADINGS: [(&str, Vec3); 6] = [
+    ("forward", Vec3::Z),
+    ("backward", Vec3::NEG_Z),
+    ("left", Vec3::NEG_X),
+    ("right", Vec3::X),
+    ("up", Vec3::Y),
+    ("down", Vec3::NEG_Y),
+];
+/// The keys that mean something; of digits the first one and the last.
+pub const KEYS: [&str; 59] = [
+    "F",
+    "R",
+    "W",
+    "A",
+    "S",
+    "D",
+    "Q",
+    "E",
+    "G",
+    "X",
+    "Y",
+    "Z",
+    "Shift+X",
+    "Shift+Y",
+    "Shift+Z",
+    "Keypad1",
+    "Keypad3",
+    "Keypad5",
+    "Keypad7",
+    "Ctrl+Keypad1",
+    "Ctrl+Keypad3",
+    "Ctrl+Keypad7",
+    "Shift+P",
+    "J",
+    "K",
+    "1",
+    "9",
+    "Ctrl+1",
+    "Ctrl+9",
+    "Ctrl+C",
+    "Ctrl+Shift+C",
+    "P",
+    "M",
+    "T",
+    "+",
+    "=",
+    "-",
+    ".",
+    ",",
+    "L",
+    "[",
+    "]",
+    "B",
+    "H",
+    "?",
+    "I",
+    "O",
+    "V",
+    "Shift+V",
+    "C",
+    ">",
+    "<",
+    "Ctrl+S",
+    "Ctrl+O",
+    "Ctrl+Shift+O",
+    "Ctrl+R",
+    "Tab",
+    "Esc",
+    "Escape",
 ];
 
 /// The first word of a text, and the rest of it.
@@ -96,6 +169,14 @@ pub fn step(line: &str) -> Result<Step, String> {
             "device" => Step::LoseDevice,
             _ => return Err(unknown(rest, "thing to lose", &["device"])),
         },
+        "camera" => match rest {
+            "arguments" => Step::PrintCamera(Form::Arguments),
+            "table" => Step::PrintCamera(Form::Table),
+            _ => return Err(unknown(rest, "form of a camera", &["arguments", "table"])),
+        },
+        "stand" => Step::Ask(Input::Stand(Bearing::parse(rest)?)),
+        "fly" => fly(rest)?,
+        "view" => view(rest)?,
         "wait" => wait(rest)?,
         "expect" => Step::Expect(expectation(rest)?),
         "double-click" => alone(word, rest, Step::DoubleClick)?,
@@ -153,21 +234,63 @@ fn shown(name: &str) -> Result<Option<Aspect>, String> {
 
 fn key(name: &str) -> Result<Step, String> {
     let lower = name.to_lowercase();
-    let (key, control) = match lower.as_str() {
-        "esc" | "escape" => (Key::Escape, false),
-        "tab" => (Key::Tab, false),
-        "ctrl+s" => (Key::Character('s'), true),
-        "ctrl+o" => (Key::Character('o'), true),
-        "ctrl+r" => (Key::Character('r'), true),
-        _ => {
-            let mut characters = lower.chars();
-            match (characters.next(), characters.next()) {
-                (Some(character), None) => (Key::Character(character), false),
-                _ => return Err(unknown(name, "key", &KEYS)),
-            }
+    let mut modifiers = Modifiers::default();
+    let mut rest = lower.as_str();
+    loop {
+        if let Some(("ctrl", key)) = rest.split_once('+') {
+            (modifiers.control, rest) = (true, key);
+        } else if let Some(("shift", key)) = rest.split_once('+') {
+            (modifiers.shift, rest) = (true, key);
+        } else {
+            break;
         }
+    }
+    let mut characters = rest.chars();
+    let key = match (rest, characters.next(), characters.next()) {
+        ("esc" | "escape", ..) => Key::Escape,
+        ("tab", ..) => Key::Tab,
+        (_, Some(character), None) => Key::Character(character),
+        _ => match rest.strip_prefix("keypad").map(str::as_bytes) {
+            Some([digit @ b'1'..=b'9']) => Key::Keypad(char::from(*digit)),
+            _ => return Err(unknown(name, "key", &KEYS)),
+        },
     };
-    Ok(Step::Key { key, control })
+    // Alone any key can be pressed.
+    let is_known = modifiers == Modifiers::default()
+        || KEYS.iter().any(|known| known.eq_ignore_ascii_case(&lower))
+        || matches!((key, modifiers.shift), (Key::Character('1'..='9'), false));
+    if !is_known {
+        return Err(unknown(name, "key", &KEYS));
+    }
+    Ok(Step::Key { key, modifiers })
+}
+
+fn fly(rest: &str) -> Result<Step, String> {
+    let (word, time) = split(rest);
+    let Some((_, heading)) = HEADINGS.iter().find(|(name, _)| *name == word) else {
+        return Err(unknown(word, "way to fly", &HEADINGS.map(|(name, _)| name)));
+    };
+    match numbers::<f32>(time)?.as_slice() {
+        [time @ 0.0..=1e4] => Ok(Step::Ask(Input::Fly {
+            heading: *heading,
+            time: *time,
+            is_fast: false,
+        })),
+        _ => Err("give the seconds that it takes, for example: fly forward 1.5".into()),
+    }
+}
+
+fn view(rest: &str) -> Result<Step, String> {
+    let (word, number) = split(rest);
+    let input = match word {
+        "save" => Input::SaveView,
+        "recall" => Input::RecallView,
+        _ => return Err(unknown(word, "thing to do with a view", &["save", "recall"])),
+    };
+    match numbers::<usize>(number)?.as_slice() {
+        [number @ 1..=PLACES] => Ok(Step::Ask(input(*number))),
+        _ => Err(format!("give a number from 1 to {PLACES}, for example: view {word} 1")),
+    }
 }
 
 fn wait(rest: &str) -> Result<Step, String> {

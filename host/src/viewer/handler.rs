@@ -33,12 +33,14 @@ impl Application {
         if self.next_turn.is_some_and(|turn| turn <= now) {
             self.take_turn();
         }
+        let flying = self.fly(now);
         let playing = self.play(now);
         let working = self.work(now);
         self.compare();
         self.look_into();
         let waiting = self.message.as_ref().map(|message| message.until);
         [
+            flying,
             playing,
             working,
             waiting,
@@ -107,7 +109,9 @@ impl ApplicationHandler<Notice> for Application {
         }
         let meaning = Event::from_winit(&event, self.session.size, self.session.scale);
         // A script is not disturbed by the hand that happens to hold the mouse.
-        let is_for_all = self.player.is_some() || !self.panel_takes(&event, meaning.as_ref());
+        let is_taken = self.player.is_none() && self.panel_takes(&event, meaning.as_ref());
+        // A key that was pressed before the panel took the keyboard is released for all.
+        let is_for_all = !is_taken || matches!(meaning, Some(Event::Released(_)));
         let Some(event) = meaning.filter(|_| is_for_all) else {
             return;
         };

@@ -1,7 +1,10 @@
 //! What can be asked of the viewer.
 
 use super::adjustment::Adjustment;
+use super::bearing::Bearing;
 use super::seeing::See;
+use super::written_camera::Form;
+use glam::Vec3;
 use std::path::PathBuf;
 
 /// Something that a person, or a script, asks for; where it came from can no longer be told.
@@ -44,6 +47,31 @@ pub enum Input {
     Expose(f32),
     /// So many reflections and refractions more; negative ones are fewer.
     Deepen(i32),
+    /// Look at what the camera circles from a side.
+    Stand(Bearing),
+    /// A wider field of view by so many steps; negative ones are narrower.
+    Widen(f32),
+    /// Perspective, or parallel rays.
+    ToggleProjection,
+    /// Remember the camera under a number, 1 to 9.
+    SaveView(usize),
+    /// Go back to where the camera was then.
+    RecallView(usize),
+    /// Copy the camera, to be used elsewhere.
+    CopyCamera(Form),
+    /// Fly, or circle what is in the middle again.
+    ToggleFlight,
+    /// Fly.
+    TakeOff,
+    /// Fly in a direction for some time.
+    Fly {
+        /// How much of it is to the right, upwards and ahead, each -1, 0 or 1.
+        heading: Vec3,
+        /// Seconds.
+        time: f32,
+        /// Whether it is to go fast.
+        is_fast: bool,
+    },
     /// One eye, or another way for two to share the screen.
     NextStereo,
     /// The eyes farther apart by so many steps; negative ones bring them together.

@@ -6,6 +6,7 @@ use super::loader::{self, Arrival, Refusal};
 use super::state::Loading;
 use crate::scene::Staging;
 use crate::source::Source;
+use crate::standpoint::Origin;
 use std::path::PathBuf;
 use std::thread;
 use std::time::Instant;
@@ -82,8 +83,9 @@ impl Application {
     }
 
     fn take_arrival(&mut self, loading: Loading, arrival: Arrival, now: Instant) {
-        let view = self.options.look.applied(arrival.view);
         let focus = arrival.scene.focus;
+        let shift = arrival.shift;
+        let view = self.options.look.applied(arrival.view, &Origin { focus, shift });
         let is_first = self.scene.is_none();
         if is_first || loading.is_reload {
             let is_elsewhere = arrival.focus != self.focus;
@@ -114,6 +116,8 @@ impl Application {
             self.recent.opened(&loading.source);
         }
         self.source = loading.source;
+        let saved = self.views_of_scene();
+        self.session.arrive(shift, saved);
         self.watcher.watch(arrival.stamps);
         self.message.take_if(|message| message.is_about_load);
         if is_staged {

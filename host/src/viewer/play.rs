@@ -88,7 +88,7 @@ impl Application {
             Step::Click(at) => player.queue(player::click(*at)),
             Step::DoubleClick => player.queue(player::double_click()),
             Step::Wheel(notches) => player.queue([Event::Wheel(*notches)]),
-            Step::Key { key, control } => player.queue(player::key(*key, *control)),
+            Step::Key { key, modifiers } => player.queue(player::key(*key, *modifiers)),
             Step::Open(paths) => player.queue([Event::Dropped(paths.clone())]),
             Step::Resize(size) => {
                 if let (true, Some(window)) = (begins, &self.window)
@@ -154,6 +154,10 @@ impl Application {
             Step::Print => {
                 let text = self.report(now);
                 // Whoever closed standard output wants no more.
+                drop(std::io::stdout().write_all(text.as_bytes()));
+            }
+            Step::PrintCamera(form) => {
+                let text = self.written_camera(*form) + "\n";
                 drop(std::io::stdout().write_all(text.as_bytes()));
             }
             Step::WaitSettled => return wait_for(self.is_settled(now)),

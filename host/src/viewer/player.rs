@@ -154,9 +154,13 @@ pub fn pin([x, y]: [f64; 2]) -> Vec<Event> {
 }
 
 /// The events of a key.
-pub fn key(key: Key, control: bool) -> Vec<Event> {
-    let modifiers = |control| Event::Modifiers(Modifiers { shift: false, control });
-    vec![modifiers(control), Event::Key(key), modifiers(false)]
+pub fn key(key: Key, modifiers: Modifiers) -> Vec<Event> {
+    vec![
+        Event::Modifiers(modifiers),
+        Event::Key(key),
+        Event::Released(key),
+        Event::Modifiers(Modifiers::default()),
+    ]
 }
 
 #[cfg(test)]
@@ -194,8 +198,12 @@ mod tests {
             inputs
         };
         assert_eq!(inputs(double_click()), [Input::Frame]);
-        assert_eq!(inputs(key(Key::Character('s'), true)), [Input::Save(None)]);
-        assert_eq!(inputs(key(Key::Character('s'), false)), []);
+        let control = Modifiers {
+            control: true,
+            ..Modifiers::default()
+        };
+        assert_eq!(inputs(key(Key::Character('s'), control)), [Input::Save(None)]);
+        assert_eq!(inputs(key(Key::Character('u'), Modifiers::default())), []);
         assert_eq!(inputs(pin([3.0, 4.0])), [Input::See(See::Pin([3.0, 4.0]))]);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::panel::Layout;
 use super::recent::Recent;
+use super::saved_views::SavedViews;
 use crate::output::TextFile;
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -9,9 +10,9 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// No state is longer, bytes.
-const LONGEST: u64 = 1 << 16;
+const LONGEST: u64 = 1 << 22;
 
-/// The panel, as it was left, and what was opened.
+/// The panel, as it was left, the views that were saved, and what was opened.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Remembered {
@@ -23,6 +24,9 @@ pub struct Remembered {
     /// How it was laid out.
     #[serde(flatten)]
     pub layout: Layout,
+    /// Views that were saved.
+    #[serde(rename = "view", skip_serializing_if = "SavedViews::is_empty")]
+    pub views: SavedViews,
 }
 
 /// A state and its file, if there is one.
@@ -60,6 +64,12 @@ impl StateFile {
         (file, complaint)
     }
 
+    /// The views that are in the file by now: another window may have saved some.
+    pub fn views_now(&self) -> SavedViews {
+        let now = self.path.as_deref().map(read).and_then(Result::ok);
+        now.map_or_else(SavedViews::default, |remembered| remembered.views)
+    }
+
     /// Writes the file anew, whole, where it is broken or the state is another one; says why that cannot be.
     pub fn write(&self, remembered: &Remembered) -> Result<(), String> {
         let is_new = self.is_broken || *remembered != self.remembered;
@@ -92,10 +102,12 @@ fn read(path: &Path) -> Result<Remembered, String> {
     }
     let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
     let remembered: Remembered = toml::from_str(&text).map_err(|error| error.message().to_owned())?;
-    if remembered.layout.width.is_finite() {
-        Ok(remembered)
-    } else {
+    if !remembered.layout.width.is_finite() {
         Err("its width is no number".into())
+    } else if !remembered.views.are_sound() {
+        Err("no camera can stand at one of its views".into())
+    } else {
+        Ok(remembered)
     }
 }
 
@@ -103,6 +115,9 @@ fn read(path: &Path) -> Result<Remembered, String> {
 mod tests {
     use super::super::panel::Section;
     use super::*;
+    use crate::projection::Projection;
+    use crate::standpoint::{Origin, Standpoint};
+    use crate::view::View;
 
     fn remembered() -> Remembered {
         Remembered {
@@ -113,6 +128,7 @@ mod tests {
                 unfolded: [Section::Lights, Section::Statistics].into(),
                 ..Layout::default()
             },
+            ..Remembered::default()
         }
     }
 
@@ -137,10 +153,35 @@ mod tests {
     }
 
     #[test]
+    fn views_are_read_again_also_those_of_another_window() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("viewer.toml");
+        let mut with_views = remembered();
+        let mut view = View {
+            projection: Projection::Orthographic,
+            ortho_height: Some(1.5),
+            ..View::default()
+        };
+        for number in [2, 9] {
+            let camera = Standpoint::of(&view, &Origin::default());
+            with_views.views.save("a scene".into(), number, camera);
+            view.ortho_height = None;
+        }
+        let (mine, _) = StateFile::read(Some(path.clone()));
+        let (others, _) = StateFile::read(Some(path.clone()));
+        assert_eq!(others.write(&with_views), Ok(()));
+        assert_eq!(mine.views_now(), with_views.views);
+        let (file, complaint) = StateFile::read(Some(path));
+        assert_eq!((file.remembered, complaint), (with_views, None));
+    }
+
+    #[test]
     fn what_is_broken_is_replaced() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("viewer.toml");
-        for broken in ["panel = maybe", "unfolded = [\"roof\"]", "width = nan", "\u{0}"] {
+        let far = "[[view]]\nscene = \"a\"\nnumber = 1\n[view.camera]\nlook_at = [0, 0, 0]\nazimuth = 0\nelevation = 91\n\
+                   distance = 1\nprojection = \"perspective\"\nfov = 40\n";
+        for broken in [far, "panel = maybe", "unfolded = [\"roof\"]", "width = nan", "\u{0}"] {
             fs::write(&path, broken).unwrap();
             let (file, complaint) = StateFile::read(Some(path.clone()));
             assert_eq!(file.remembered, Remembered::default());

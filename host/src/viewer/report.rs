@@ -43,6 +43,10 @@ impl Application {
             "target",
             format!("{} {} {}", view.target.x, view.target.y, view.target.z),
         );
+        line("projection", name(&view.projection));
+        line("fov", view.field_of_view.to_string());
+        line("seen-height", view.seen_height().to_string());
+        line("flying", self.session.flying_speed().is_some().to_string());
         for kind in Disagreement::ALL {
             let count = self.findings().map(|findings| findings.count(kind));
             let text = count.map_or_else(|| "-".into(), |count| count.to_string());

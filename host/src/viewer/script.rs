@@ -78,11 +78,14 @@ impl Script {
 #[cfg(test)]
 mod tests {
     use super::super::adjustment::Adjustment;
-    use super::super::event::{Button, Key};
+    use super::super::bearing::Bearing;
+    use super::super::event::{Button, Key, Modifiers};
     use super::super::input::Input;
     use super::super::step::Expectation;
+    use super::super::written_camera::Form;
     use super::*;
     use crate::insight::Aspect;
+    use glam::Vec3;
 
     fn steps(text: &str) -> Vec<Step> {
         let script = Script::parse(text, "test").unwrap();
@@ -107,6 +110,11 @@ mod tests {
             key ?
             key Esc
             key Tab
+            key Ctrl+Shift+C
+            key ctrl+7
+            key Shift+x
+            key Keypad5
+            key +
             resize 800 600
             minimise
             restore
@@ -128,6 +136,12 @@ mod tests {
             pick 3 4
             lose device
             print
+            camera arguments
+            camera table
+            stand -y
+            fly left 1.5
+            view save 1
+            view recall 9
             wait settled
             wait frames 3
             wait samples 20
@@ -145,7 +159,11 @@ mod tests {
             right,
             down,
         };
-        let key = |key, control| Step::Key { key, control };
+        let held = |shift, control| Modifiers { shift, control };
+        let key = |key, control| Step::Key {
+            key,
+            modifiers: held(false, control),
+        };
         assert_eq!(
             steps(text),
             [
@@ -159,6 +177,17 @@ mod tests {
                 key(Key::Character('?'), false),
                 key(Key::Escape, false),
                 key(Key::Tab, false),
+                Step::Key {
+                    key: Key::Character('c'),
+                    modifiers: held(true, true),
+                },
+                key(Key::Character('7'), true),
+                Step::Key {
+                    key: Key::Character('x'),
+                    modifiers: held(true, false),
+                },
+                key(Key::Keypad('5'), false),
+                key(Key::Character('+'), false),
                 Step::Resize([800, 600]),
                 Step::Minimise,
                 Step::Restore,
@@ -180,6 +209,16 @@ mod tests {
                 Step::Ask(Input::Pick([3.0, 4.0])),
                 Step::LoseDevice,
                 Step::Print,
+                Step::PrintCamera(Form::Arguments),
+                Step::PrintCamera(Form::Table),
+                Step::Ask(Input::Stand(Bearing::parse("-y").unwrap())),
+                Step::Ask(Input::Fly {
+                    heading: Vec3::NEG_X,
+                    time: 1.5,
+                    is_fast: false,
+                }),
+                Step::Ask(Input::SaveView(1)),
+                Step::Ask(Input::RecallView(9)),
                 Step::WaitSettled,
                 Step::WaitFrames(3),
                 Step::WaitSamples(20),
@@ -204,7 +243,7 @@ mod tests {
         assert!(error("drag lefft 1 2").contains("did you mean \"left\""));
         assert!(error("wait setled").contains("did you mean \"settled\""));
         assert!(error("expect bakend gpu").contains("did you mean \"backend\""));
-        assert!(error("key Ctrl+X").contains("\"Ctrl+S\""));
+        assert!(error("key Ctrl+Sh").contains("\"Ctrl+S\""));
         assert!(error("zzzzzzz").contains("give one of drag, "));
         for bad in [
             "drag left 1",
@@ -244,6 +283,18 @@ mod tests {
             "pin 3",
             "move -1 2",
             "unpin all",
+            "key Ctrl+U",
+            "key Shift+1",
+            "key Keypad0",
+            "camera",
+            "stand x",
+            "fly",
+            "fly forward",
+            "fly forward -1",
+            "fly home 1",
+            "view",
+            "view save 0",
+            "view recall 10",
             "expect message",
             "expect backend tpu",
         ] {

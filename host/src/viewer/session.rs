@@ -1,25 +1,32 @@
 //! What the person has set, apart from window, threads and devices.
 
 mod adjusting;
+mod flight;
 mod home;
 mod staging;
+mod standing;
 mod steering;
 #[cfg(test)]
 mod tests;
 
+pub use standing::PLACES;
 pub use steering::DISTANCES;
 
 use super::input::Input;
 use super::seeing::{See, Seeing};
+use super::written_camera::Form;
 use crate::backend::BackendChoice;
 use crate::model::Focus;
 use crate::sampling::Samples;
 use crate::scene::Staging;
+use crate::standpoint::Standpoint;
 use crate::stereo::{Stereo, StereoMode};
 use crate::structure::StructureOptions;
 use crate::tone::Curve;
 use crate::view::{Shading, View};
-use glam::Vec3;
+use adjusting::ONE_EYE;
+use flight::Flight;
+use glam::{DVec3, Vec3};
 use oktant_shared::parts::TraversalKind;
 use oktant_shared::whitted::MAX_DEPTH;
 use std::path::PathBuf;
@@ -64,8 +71,14 @@ pub struct Session {
     home_staging: Staging,
     /// What places are counted from.
     focus: Focus,
+    /// What the scene's coordinates were moved by: see [`crate::mesh::Mesh::shift`].
+    shift: DVec3,
     /// What stereo is, or would be if it was switched on.
     stereo: Stereo,
+    /// Whether the camera flies, and how fast.
+    flight: Flight,
+    /// Views of the scene that were saved, by their numbers less 1.
+    saved: [Option<Standpoint>; PLACES],
 }
 
 /// What an input brings about beyond the session.
@@ -102,6 +115,12 @@ pub enum Effect {
     Recent(usize),
     /// CPU and GPU change places.
     SwitchBackend,
+    /// A view was saved under that number.
+    ViewSaved(usize),
+    /// The camera is to be copied.
+    Copy(Form),
+    /// A flight has ended: what is in the middle is to be circled.
+    Land,
     /// It cannot be: why, and what to do, in a sentence without its capital and its point.
     Refused(String),
     /// The window closes.
@@ -129,7 +148,10 @@ impl Session {
                 center: Vec3::ZERO,
                 radius: 1.0,
             },
+            shift: DVec3::ZERO,
             stereo: view.stereo.unwrap_or(Stereo::new(StereoMode::Anaglyph)),
+            flight: Flight::default(),
+            saved: [None; PLACES],
         }
     }
 
@@ -140,6 +162,10 @@ impl Session {
             Input::Turn { right, down } => self.turn(right, down),
             Input::TurnLight { right, down } => self.turn_light(right, down),
             Input::Pan { right, down } => self.pan(right, down),
+            Input::Zoom(notches) if self.flight.is_on => {
+                self.accelerate(notches);
+                return Effect::Redraw;
+            }
             Input::Zoom(notches) => self.zoom(notches),
             Input::Frame => self.frame(),
             Input::Reset => self.reset(),
@@ -158,6 +184,35 @@ impl Session {
             Input::Deepen(steps) => {
                 self.view.depth = self.view.depth.saturating_add_signed(steps).min(MAX_DEPTH);
             }
+            Input::Stand(bearing) => self.stand(bearing),
+            Input::Widen(_) | Input::ToggleProjection | Input::RecallView(_) => {
+                let changed = match input {
+                    Input::Widen(steps) => self.widen(steps),
+                    Input::RecallView(number) => self.recall_view(number),
+                    _ => self.toggle_projection(),
+                };
+                if let Err(reason) = changed {
+                    return Effect::Refused(reason);
+                }
+            }
+            Input::SaveView(number) => {
+                self.save_view(number);
+                return Effect::ViewSaved(number);
+            }
+            Input::CopyCamera(form) => return Effect::Copy(form),
+            Input::ToggleFlight | Input::Leave if self.flight.is_on => {
+                self.flight.is_on = false;
+                return Effect::Land;
+            }
+            Input::ToggleFlight | Input::TakeOff => {
+                self.flight.is_on = true;
+                return Effect::Redraw;
+            }
+            Input::Fly { heading, time, is_fast } => {
+                self.flight.is_on = true;
+                self.fly(heading, time, is_fast);
+            }
+            Input::NextStereo if self.view.is_orthographic() => return Effect::Refused(ONE_EYE.into()),
             Input::NextStereo => self.next_stereo(),
             Input::PartEyes(steps) => {
                 let apart = self.eye_distance() * FARTHER_APART.powf(steps);

@@ -91,13 +91,16 @@ impl Application {
         !self.session.panel || self.panel.as_ref().is_none_or(|panel| panel.is_settled(now))
     }
 
-    /// Writes down how the panel is left, and what was opened.
+    /// Writes down how the panel is left, the views that were saved, and what was opened.
     pub(super) fn remember(&self) {
         let Some(panel) = &self.panel else { return };
+        let mut views = self.state.views_now();
+        views.extend(&self.saved_views);
         let remembered = Remembered {
             panel: self.session.panel,
             recent: self.recent.clone(),
             layout: panel.layout.clone(),
+            views,
         };
         if let Err(sentence) = self.state.write(&remembered) {
             eprintln!("{sentence}");

@@ -1,7 +1,8 @@
 //! The steps of a script.
 
-use super::event::{Button, Key};
+use super::event::{Button, Key, Modifiers};
 use super::input::Input;
+use super::written_camera::Form;
 use crate::insight::Aspect;
 use std::path::PathBuf;
 
@@ -29,8 +30,8 @@ pub enum Step {
     Key {
         /// Which.
         key: Key,
-        /// Whether Ctrl is held down.
-        control: bool,
+        /// What is held down beside it.
+        modifiers: Modifiers,
     },
     /// Give the window's inside a size.
     Resize([u32; 2]),
@@ -60,6 +61,8 @@ pub enum Step {
     Print,
     /// Lose the GPU's device.
     LoseDevice,
+    /// Print the camera.
+    PrintCamera(Form),
     /// Wait until nothing changes any more.
     WaitSettled,
     /// Wait until so many new pictures were shown.

@@ -1,8 +1,11 @@
 //! From events to inputs: what buttons, keys and their combinations mean.
 
+use super::bearing::Bearing;
 use super::event::{Button, Event, Key, Modifiers};
 use super::input::Input;
 use super::seeing::See;
+use super::written_camera::Form;
+use glam::Vec3;
 use std::time::{Duration, Instant};
 
 /// Two presses within this time are a double click.
@@ -15,16 +18,29 @@ const DOUBLE_CLICK_REACH: f64 = 5.0;
 pub struct Translation {
     pointer: Option<[f64; 2]>,
     held: Option<Button>,
+    /// Keys that are held down and steer a flight.
+    steering: Vec<char>,
     modifiers: Modifiers,
     last_click: Option<(Instant, [f64; 2])>,
     scale: f64,
 }
+
+/// The keys that steer a flight, and where they lead: to the right, upwards and ahead.
+const STEERING: [(char, Vec3); 6] = [
+    ('w', Vec3::Z),
+    ('s', Vec3::NEG_Z),
+    ('a', Vec3::NEG_X),
+    ('d', Vec3::X),
+    ('e', Vec3::Y),
+    ('q', Vec3::NEG_Y),
+];
 
 impl Default for Translation {
     fn default() -> Self {
         Translation {
             pointer: None,
             held: None,
+            steering: Vec::new(),
             modifiers: Modifiers::default(),
             last_click: None,
             scale: 1.0,
@@ -85,6 +101,10 @@ impl Translation {
                 None
             }
             Event::Key(key) => self.key(key),
+            Event::Released(key) => {
+                self.steering.retain(|held| key != Key::Character(*held));
+                None
+            }
             Event::Dropped(ref paths) if self.modifiers != Modifiers::default() => Some(Input::Add(paths.clone())),
             Event::Dropped(ref paths) => Some(Input::Open(paths.clone())),
             Event::Resized { size, scale } => {
@@ -93,6 +113,7 @@ impl Translation {
             }
             Event::Unfocused => {
                 self.held = None;
+                self.steering.clear();
                 self.modifiers = Modifiers::default();
                 None
             }
@@ -103,6 +124,12 @@ impl Translation {
     /// Where the pointer is, physical pixels from the window's upper left corner; none where nobody has seen it.
     pub fn pointer(&self) -> Option<[f64; 2]> {
         self.pointer
+    }
+
+    /// Where the keys lead that are held down, to the right, upwards and ahead, each -1, 0 or 1; and whether fast.
+    pub fn heading(&self) -> (Vec3, bool) {
+        let held = STEERING.iter().filter(|(key, _)| self.steering.contains(key));
+        (held.map(|(_, way)| *way).sum(), self.modifiers.shift)
     }
 
     fn click(&mut self, now: Instant) -> Option<Input> {
@@ -125,8 +152,14 @@ impl Translation {
         (a[0] - b[0]).hypot(a[1] - b[1]) <= DOUBLE_CLICK_REACH * self.scale
     }
 
-    fn key(&self, key: Key) -> Option<Input> {
+    fn key(&mut self, key: Key) -> Option<Input> {
+        let Modifiers { shift, control } = self.modifiers;
         Some(match key {
+            Key::Character('c') if control && shift => Input::CopyCamera(Form::Table),
+            Key::Character('c') if control => Input::CopyCamera(Form::Arguments),
+            Key::Character(digit @ '1'..='9') if control => Input::SaveView(number(digit)),
+            Key::Character(digit @ '1'..='9') => Input::RecallView(number(digit)),
+            Key::Keypad(digit) => return keypad(digit, control),
             Key::Escape => Input::Leave,
             Key::Tab => Input::TogglePanel,
             Key::Character('s') if self.modifiers.control => Input::Save(None),
@@ -137,14 +170,28 @@ impl Translation {
             Key::Character(_) if self.modifiers.control => return None,
             Key::Character('f') => Input::Frame,
             Key::Character('r') => Input::Reset,
+            Key::Character('p') if shift => Input::ToggleProjection,
             Key::Character('p') => Input::ToggleShading,
+            Key::Character('k') => Input::Widen(1.0),
+            Key::Character('j') => Input::Widen(-1.0),
+            Key::Character(letter @ 'x'..='z') => Input::Stand(Bearing::Axis {
+                axis: letter as usize - 'x' as usize,
+                is_negative: shift,
+            }),
+            Key::Character('g') => Input::ToggleFlight,
+            Key::Character(letter) if STEERING.iter().any(|(key, _)| *key == letter) => {
+                if !self.steering.contains(&letter) {
+                    self.steering.push(letter);
+                }
+                Input::TakeOff
+            }
             Key::Character('m') => Input::NextSamples,
             Key::Character('t') => Input::NextTone,
             Key::Character('+' | '=') => Input::Expose(1.0),
             Key::Character('-') => Input::Expose(-1.0),
             Key::Character('.') => Input::Deepen(1),
             Key::Character(',') => Input::Deepen(-1),
-            Key::Character('3') => Input::NextStereo,
+            Key::Character('l') => Input::NextStereo,
             Key::Character(']') => Input::PartEyes(1.0),
             Key::Character('[') => Input::PartEyes(-1.0),
             Key::Character('b') => Input::SwitchBackend,
@@ -159,6 +206,25 @@ impl Translation {
             Key::Character(_) => return None,
         })
     }
+}
+
+/// The number on a key.
+fn number(digit: char) -> usize {
+    digit as usize - '0' as usize
+}
+
+/// What a digit of the keypad asks for, as in Blender; Ctrl is the other side.
+fn keypad(digit: char, is_opposite: bool) -> Option<Input> {
+    Some(match (digit, is_opposite) {
+        ('1', false) => Input::Stand(Bearing::Front),
+        ('1', true) => Input::Stand(Bearing::Back),
+        ('3', false) => Input::Stand(Bearing::Right),
+        ('3', true) => Input::Stand(Bearing::Left),
+        ('7', false) => Input::Stand(Bearing::Top),
+        ('7', true) => Input::Stand(Bearing::Bottom),
+        ('5', false) => Input::ToggleProjection,
+        _ => return None,
+    })
 }
 
 #[cfg(test)]
@@ -277,6 +343,7 @@ mod tests {
     fn keys_and_the_rest() {
         let mut hand = Hand::new();
         let character = |c| Event::Key(Key::Character(c));
+        let axis = |axis, is_negative| Input::Stand(Bearing::Axis { axis, is_negative });
         for (key, input) in [
             ('f', Some(Input::Frame)),
             ('r', Some(Input::Reset)),
@@ -288,7 +355,14 @@ mod tests {
             ('-', Some(Input::Expose(-1.0))),
             ('.', Some(Input::Deepen(1))),
             (',', Some(Input::Deepen(-1))),
-            ('3', Some(Input::NextStereo)),
+            ('l', Some(Input::NextStereo)),
+            ('1', Some(Input::RecallView(1))),
+            ('9', Some(Input::RecallView(9))),
+            ('0', None),
+            ('k', Some(Input::Widen(1.0))),
+            ('j', Some(Input::Widen(-1.0))),
+            ('y', Some(axis(1, false))),
+            ('g', Some(Input::ToggleFlight)),
             (']', Some(Input::PartEyes(1.0))),
             ('[', Some(Input::PartEyes(-1.0))),
             ('b', Some(Input::SwitchBackend)),
@@ -300,10 +374,8 @@ mod tests {
             ('c', Some(Input::See(See::NextCells))),
             ('>', Some(Input::See(See::Deeper(1)))),
             ('<', Some(Input::See(See::Deeper(-1)))),
-            ('w', None),
-            ('a', None),
-            ('s', None),
-            ('d', None),
+            ('w', Some(Input::TakeOff)),
+            ('u', None),
         ] {
             assert_eq!(hand.does(character(key)), input, "{key}");
         }
@@ -312,6 +384,13 @@ mod tests {
         assert_eq!(hand.does(Event::CloseRequested), Some(Input::Quit));
         hand.modifiers(true, false);
         assert_eq!(hand.does(character('v')), Some(Input::See(See::Previous)));
+        assert_eq!(hand.does(character('p')), Some(Input::ToggleProjection));
+        assert_eq!(hand.does(character('z')), Some(axis(2, true)));
+        assert_eq!(
+            hand.does(character('4')),
+            Some(Input::RecallView(4)),
+            "a French keyboard"
+        );
         hand.modifiers(false, true);
         assert_eq!(hand.press(Button::Left), None, "nobody knows where");
         hand.moves(7.0, 9.0);
@@ -319,8 +398,11 @@ mod tests {
         assert_eq!(hand.moves(8.0, 9.0), None, "a pin is not dragged");
         hand.release(Button::Left);
         assert_eq!(hand.does(character('s')), Some(Input::Save(None)));
+        assert_eq!(hand.does(character('2')), Some(Input::SaveView(2)));
+        assert_eq!(hand.does(character('c')), Some(Input::CopyCamera(Form::Arguments)));
         assert_eq!(hand.does(character('f')), None, "Ctrl+F is something else");
         hand.modifiers(true, true);
+        assert_eq!(hand.does(character('c')), Some(Input::CopyCamera(Form::Table)));
         hand.moves(30.0, 40.0);
         assert_eq!(hand.press(Button::Left), Some(Input::Pick([30.0, 40.0])));
         assert_eq!(hand.moves(35.0, 40.0), None, "it holds nothing");
@@ -341,5 +423,51 @@ mod tests {
         hand.modifiers(false, true);
         assert_eq!(hand.does(character('o')), Some(Input::Choose { beside: false }));
         assert_eq!(hand.does(character('r')), Some(Input::ToggleRecent));
+    }
+
+    #[test]
+    fn the_keypad_looks_from_all_sides() {
+        let mut hand = Hand::new();
+        let sides = |hand: &mut Hand| {
+            "13579"
+                .chars()
+                .map(|digit| hand.does(Event::Key(Key::Keypad(digit))))
+                .collect::<Vec<_>>()
+        };
+        let stand = |bearing| Some(Input::Stand(bearing));
+        let [front, right, top] = [Bearing::Front, Bearing::Right, Bearing::Top].map(stand);
+        assert_eq!(
+            sides(&mut hand),
+            [front, right, Some(Input::ToggleProjection), top, None]
+        );
+        hand.modifiers(false, true);
+        let [back, left, bottom] = [Bearing::Back, Bearing::Left, Bearing::Bottom].map(stand);
+        assert_eq!(sides(&mut hand), [back, left, None, bottom, None]);
+    }
+
+    #[test]
+    fn what_is_held_down_steers() {
+        let mut hand = Hand::new();
+        let key = |c| Event::Key(Key::Character(c));
+        let release = |c| Event::Released(Key::Character(c));
+        hand.does(key('w'));
+        hand.does(key('d'));
+        assert_eq!(hand.translation.heading(), (Vec3::new(1.0, 0.0, 1.0), false));
+        hand.does(key('a'));
+        hand.modifiers(true, false);
+        assert_eq!(hand.translation.heading(), (Vec3::Z, true), "left and right together");
+        hand.does(release('w'));
+        hand.does(release('d'));
+        hand.does(release('f'));
+        assert_eq!(hand.translation.heading().0, Vec3::NEG_X);
+        hand.does(Event::Unfocused);
+        assert_eq!(
+            hand.translation.heading(),
+            (Vec3::ZERO, false),
+            "it may be released elsewhere"
+        );
+        hand.modifiers(false, true);
+        assert_eq!(hand.does(key('s')), Some(Input::Save(None)));
+        assert_eq!(hand.translation.heading().0, Vec3::ZERO, "Ctrl+S is something else");
     }
 }

@@ -7,9 +7,11 @@ use oktant_shared::camera::Camera;
 pub(super) struct Projection {
     eye: Vec3,
     /// Rows that take an offset from the eye to (across, upwards, depth), where across and upwards are as large as the depth
-    /// at the picture's edges.
+    /// at the picture's edges in perspective.
     rows: [Vec3; 3],
     size: [f32; 2],
+    /// Whether what is seen is as wide at any depth: across and upwards are 1 at the picture's edges then.
+    is_parallel: bool,
 }
 
 /// A line in the picture.
@@ -33,6 +35,7 @@ impl Projection {
                 camera.forward,
             ],
             size: [camera.width as f32, camera.height as f32],
+            is_parallel: camera.parallel != 0.0,
         }
     }
 
@@ -42,12 +45,13 @@ impl Projection {
         // How far inside of each of the planes that bound what is seen an end is.
         let nearest = NEAREST * from.length().max(to.length());
         let inside = |point: Vec3| {
+            let edge = self.edge(point);
             [
                 point.z - nearest,
-                point.z - point.x,
-                point.z + point.x,
-                point.z - point.y,
-                point.z + point.y,
+                edge - point.x,
+                edge + point.x,
+                edge - point.y,
+                edge + point.y,
             ]
         };
         let (mut first, mut last) = (0.0_f32, 1.0_f32);
@@ -78,10 +82,16 @@ impl Projection {
         vec3(across, upwards, depth)
     }
 
+    /// How large across and upwards are at the picture's edges, at a point's depth.
+    fn edge(&self, turned: Vec3) -> f32 {
+        if self.is_parallel { 1.0 } else { turned.z }
+    }
+
     fn placed(&self, turned: Vec3) -> [f32; 2] {
+        let edge = self.edge(turned);
         [
-            (turned.x / turned.z + 1.0) / 2.0 * self.size[0],
-            (1.0 - turned.y / turned.z) / 2.0 * self.size[1],
+            (turned.x / edge + 1.0) / 2.0 * self.size[0],
+            (1.0 - turned.y / edge) / 2.0 * self.size[1],
         ]
     }
 }

@@ -247,6 +247,13 @@ fn numbers_in_gltf_files() {
         &["cameras[0].perspective.yfov is 0"],
     );
     assert_floor_refused(
+        |json| {
+            json["cameras"] = json!([{"type": "orthographic", "orthographic": {"xmag": 1.0, "ymag": 0.0}}]);
+            json["nodes"][0]["camera"] = 0.into();
+        },
+        &["cameras[0].orthographic.ymag is 0", "above 0"],
+    );
+    assert_floor_refused(
         |json| json["nodes"][0]["scale"] = json!([1e300, 1, 1]),
         &["single precision"],
     );

@@ -131,6 +131,27 @@ fn a_camera_sees_what_its_file_says() {
     assert!(top.y > forward.y);
 }
 
+#[test]
+fn a_camera_without_perspective_sees_as_much_as_its_file_says() {
+    let half = (-PI / 12.0).sin();
+    let mut glb = Glb::floor().node(json!({
+        "camera": 0, "translation": [1.0, 2.0, 5.0], "rotation": [half, 0.0, 0.0, (1.0 - half * half).sqrt()],
+    }));
+    glb.json["cameras"] =
+        json!([{"type": "orthographic", "orthographic": {"xmag": 3.0, "ymag": 1.25, "znear": 0.1, "zfar": 50.0}}]);
+    let setting = setting(&glb, 0.0);
+    let scene = scene(setting.model);
+    let camera = setting.view.frame(&scene, 300, 200).camera;
+    let forward = vec3(0.0, -0.5, -(PI / 6.0).cos() as f32);
+    let [top, middle, bottom] = [0.0, 100.0, 200.0].map(|y| camera.ray(150.0, y, 0.0));
+    assert!(middle.origin.distance(vec3(1.0, 2.0, 5.0)) < 1e-5, "{}", middle.origin);
+    for ray in [top, middle, bottom] {
+        assert!(ray.direction.distance(forward) < 1e-6, "{}", ray.direction);
+    }
+    assert!((top.origin.distance(bottom.origin) - 2.5).abs() < 1e-5);
+    assert!(top.origin.y > bottom.origin.y);
+}
+
 /// A closed box of the size 4 x 1 x 4, its top at y = 0.
 fn slab(material: Value) -> Glb {
     let corner = |i: usize| [[-2.0, 2.0][i & 1], [-1.0, 0.0][i >> 1 & 1], [-2.0, 2.0][i >> 2]];

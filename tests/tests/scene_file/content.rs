@@ -156,6 +156,31 @@ fn cameras_and_lights_are_where_the_file_has_them() {
     }
 }
 
+/// Oracle: the edges of the picture, in scene units. Whatever else a file says of the camera, it shows as much as it says.
+#[test]
+fn an_orthographic_camera_shows_the_height_of_its_file() {
+    for place in [
+        "",
+        "position = [0, 3, 9]\n",
+        "distance = 7\n",
+        "look_at = [1, 0, 0]\nelevation = 70\n",
+    ] {
+        let text =
+            |height: &str| format!("[camera]\nprojection = 'orthographic'\n{place}{height}[[sphere]]\nradius = 3\n");
+        let heights = ["height = 2.5\n", ""].map(|height| {
+            let setting = read(&text(height));
+            let scene = Scene::of_model(setting.model, &StructureOptions::default(), &silent).unwrap();
+            let frame = setting.view.frame(&scene, 640, 480);
+            let [top, bottom] = [0.0, 480.0].map(|y| frame.camera.ray(320.0, y, 0.0));
+            assert_eq!(top.direction, bottom.direction);
+            let in_perspective = 2.0 * 20.0_f32.to_radians().tan() * frame.camera.convergence;
+            (top.origin.distance(bottom.origin), in_perspective)
+        });
+        assert!((heights[0].0 - 2.5).abs() < 1e-5, "{place}: {heights:?}");
+        assert!((heights[1].0 / heights[1].1 - 1.0).abs() < 1e-5, "{place}: {heights:?}");
+    }
+}
+
 #[test]
 fn defaults_are_those_of_a_mesh_alone() {
     let setting = read("[[mesh]]\nname = 'balls'\n");

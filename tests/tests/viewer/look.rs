@@ -76,23 +76,23 @@ fn stereo_matches_the_offline_picture(backend: &str) {
         "key I
         wait settled
         expect backend {backend}
-        key 3
+        key L
         key ]
         drag left 30 10
         wait settled
         screenshot anaglyph.png
-        key 3
+        key L
         wait settled
         screenshot side-by-side.png
-        key 3
+        key L
         wait settled
         screenshot rows.png
-        key 3
+        key L
         wait settled
         {turns}
         print
         save saved.png
-        key 3
+        key L
         wait settled
         screenshot one-eye.png"
     );

@@ -4,6 +4,7 @@
 
 #![cfg(test)]
 
+mod camera;
 mod failures;
 mod files;
 mod look;

@@ -1,16 +1,21 @@
 //! How the picture looks.
 
-use super::numbers::{cutoff, distance, elevation, exposure, field_of_view, finite, length, tolerance};
+use super::numbers::{cutoff, distance, elevation, exposure, field_of_view, finite, length, offset, tolerance};
 use crate::cli::Failure;
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
+use glam::Vec3;
+use oktant::projection::Projection;
 use oktant::sampling::{Filter, Pattern, SampleCount};
 use oktant::source::Source;
+use oktant::standpoint::Origin;
 use oktant::stereo::{Stereo, StereoMode};
 use oktant::tone::Curve;
 use oktant::view::{Shading, View};
+use oktant::view_file::ViewFile;
 use oktant_shared::orbit::Up;
 use oktant_shared::whitted::MAX_DEPTH as MAX_TREE_DEPTH;
+use std::path::PathBuf;
 
 /// How the picture looks. What is not given is as the scene says, or as it is for a mesh alone.
 #[derive(Clone, Debug, Default, Args)]
@@ -43,6 +48,10 @@ pub struct LookArguments {
     /// [default: as the scene says, else 0.9].
     #[arg(long, value_name = "STEPS", allow_negative_numbers = true, value_parser = cutoff)]
     pub cutoff: Option<f32>,
+    /// Where the camera stands, by a file with a table [camera] as scene files have it, which the viewer copies with
+    /// Ctrl+Shift+C; what other options say of it takes precedence.
+    #[arg(long, value_name = "FILE.toml")]
+    pub view: Option<PathBuf>,
     /// Where the camera stands, degrees: 0 in front (+Z, or -Y with --up z), counterclockwise seen from above
     /// [default: as the scene says, else 0].
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = finite)]
@@ -57,6 +66,18 @@ pub struct LookArguments {
     /// Vertical field of view, degrees, 1 to 170 [default: as the scene says, else 40].
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = field_of_view)]
     pub fov: Option<f32>,
+    /// Whether what is farther away is smaller (perspective) or not (orthographic) [default: as the scene says, else
+    /// perspective].
+    #[arg(long, value_enum)]
+    pub projection: Option<Projection>,
+    /// What an orthographic picture shows from its lower edge to the upper one, counted like --distance
+    /// [default: as the scene says, else what --fov shows at --distance].
+    #[arg(long, value_name = "RADII", allow_negative_numbers = true, value_parser = distance)]
+    pub ortho_height: Option<f32>,
+    /// What the camera looks at and circles: an offset along the scene's axes from the middle of what the scene looks at,
+    /// counted like --distance [default: 0,0,0].
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = offset)]
+    pub target: Option<Vec3>,
     /// Which axis of a mesh points up; a scene file says it itself [default: y].
     #[arg(long, value_enum)]
     pub up: Option<UpArgument>,
@@ -98,11 +119,31 @@ impl LookArguments {
         }
     }
 
-    /// A view with what is given here changed.
-    pub fn applied(&self, mut view: View) -> View {
+    /// The file that says where the camera stands, if there is one.
+    ///
+    /// # Errors
+    /// One that is none.
+    pub fn view_file(&self) -> Result<Option<ViewFile>, Failure> {
+        let path = self.view.as_deref();
+        Ok(path.map(ViewFile::read).transpose()?)
+    }
+
+    /// A view with what is given here changed, but for what a file says.
+    pub fn applied(&self, view: View) -> View {
+        self.applied_after(view, |view| view)
+    }
+
+    /// A view of a scene with what is given here and in a file changed.
+    pub fn applied_with(&self, file: Option<&ViewFile>, view: View, origin: &Origin) -> View {
+        self.applied_after(view, |view| file.map_or(view, |file| file.applied(&view, origin)))
+    }
+
+    /// A view with what the environment says, then `between`, then what is given here changed.
+    fn applied_after(&self, mut view: View, between: impl FnOnce(View) -> View) -> View {
         if let Some(environment) = &self.environment {
             view = environment.applied(view);
         }
+        view = between(view);
         fn set<T: Copy>(value: &mut T, given: Option<T>) {
             *value = given.unwrap_or(*value);
         }
@@ -118,7 +159,10 @@ impl LookArguments {
         set(&mut view.camera.azimuth, self.azimuth);
         set(&mut view.camera.elevation, self.elevation);
         set(&mut view.camera.distance, self.distance);
+        set(&mut view.target, self.target);
+        set(&mut view.projection, self.projection);
         set(&mut view.field_of_view, self.fov);
+        view.ortho_height = self.ortho_height.or(view.ortho_height);
         set(
             &mut view.up,
             self.up.map(|up| match up {
@@ -160,10 +204,31 @@ impl LookArguments {
                 "In a glTF file +Y points up: leave --up out."
             }));
         }
+        self.view_file()?;
+        if self.projection == Some(Projection::Orthographic) && self.stereo.is_some() {
+            // The rest is known when the scene is.
+            self.check_projection(&self.applied(View::default()))?;
+        }
         match self.stereo {
             None if is_scene => Ok(()),
             stereo => self.check_eyes(stereo.is_some_and(|stereo| stereo.0.is_some())),
         }
+    }
+
+    /// Makes sure that an orthographic picture is for one eye, and that only such a one is told how high it is.
+    pub fn check_projection(&self, view: &View) -> Result<(), Failure> {
+        if view.is_orthographic() && view.stereo.is_some() {
+            return Err(Failure::usage(
+                "Two eyes see the same where rays are parallel: give --projection perspective, or --stereo none.",
+            ));
+        }
+        if !view.is_orthographic() && self.ortho_height.is_some() {
+            return Err(Failure::usage(
+                "Only orthographic pictures have a height of their own: leave --ortho-height out, or give --projection \
+                 orthographic.",
+            ));
+        }
+        Ok(())
     }
 
     /// Makes sure that only what is sampled adaptively is told how.

@@ -1,5 +1,7 @@
 //! Numbers on the command line, with their ranges.
 
+use glam::Vec3;
+
 fn number(text: &str, least: f32, greatest: f32, wanted: &str) -> Result<f32, String> {
     match text.trim().parse::<f32>() {
         Ok(value) if (least..=greatest).contains(&value) => Ok(value),
@@ -17,6 +19,18 @@ pub fn elevation(text: &str) -> Result<f32, String> {
 
 pub fn field_of_view(text: &str) -> Result<f32, String> {
     number(text, 1.0, 170.0, "give a number of degrees from 1 to 170")
+}
+
+pub fn offset(text: &str) -> Result<Vec3, String> {
+    const WANTED: &str = "give three numbers of radii, for example 0,0.5,0";
+    let numbers: Vec<f32> = text
+        .split(',')
+        .map(|part| number(part, -1e6, 1e6, WANTED))
+        .collect::<Result<_, _>>()?;
+    match numbers.as_slice() {
+        [x, y, z] => Ok(Vec3::new(*x, *y, *z)),
+        _ => Err(WANTED.into()),
+    }
 }
 
 pub fn length(text: &str) -> Result<f32, String> {

@@ -1,6 +1,7 @@
-//! The pinhole camera and the place of the light, as a view tells them.
+//! The camera and the place of the light, as a view tells them.
 
 use crate::model::{Focus, Model};
+use crate::projection::Projection;
 use crate::stereo::{Stereo, StereoMode};
 use crate::view::{Place, View};
 use glam::{DVec2, DVec3};
@@ -9,18 +10,19 @@ use oktant_shared::orbit::Up;
 /// Distance of the eyes where nobody says it, in parts of the convergence.
 const EYE_PART: f64 = 1.0 / 30.0;
 
-/// A pinhole camera, or two beside each other that look straight ahead.
+/// A pinhole camera, or two beside each other that look straight ahead; or a plane from which parallel rays leave.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Camera {
-    /// The pinhole, or the middle between the two.
+    /// The pinhole, the middle between the two, or the middle of the plane.
     pub eye: DVec3,
     forward: DVec3,
     /// Unit vector.
     right: DVec3,
     /// Unit vector.
     above: DVec3,
-    /// Half the width and height of what is seen at distance 1.
+    /// Half the width and height of what is seen at distance 1, or at any distance where rays are parallel.
     half: DVec2,
+    is_parallel: bool,
     /// Width and height of an eye's picture, pixels.
     pub size: [u32; 2],
     stereo: Option<StereoMode>,
@@ -91,7 +93,12 @@ impl Camera {
         let [right, _, front] = axes(view.up);
         let (sin, cos) = f64::from(view.camera.azimuth).to_radians().sin_cos();
         let right = right * cos - front * sin;
-        let half_height = (f64::from(view.field_of_view).to_radians() / 2.0).tan();
+        let slope = (f64::from(view.field_of_view).to_radians() / 2.0).tan();
+        let half_height = match (view.projection, view.ortho_height) {
+            (Projection::Perspective, _) => slope,
+            (Projection::Orthographic, Some(height)) => f64::from(height) * radius / 2.0,
+            (Projection::Orthographic, None) => slope * distance,
+        };
         let (shift, convergence) = view.stereo.map_or((0.0, distance), |stereo| eyes(&stereo, distance));
         Camera {
             eye: target + back * distance,
@@ -99,6 +106,7 @@ impl Camera {
             right,
             above: back.cross(right),
             half: DVec2::new(half_height * f64::from(size[0]) / f64::from(size[1]), half_height),
+            is_parallel: view.projection == Projection::Orthographic,
             size,
             stereo,
             shift,
@@ -151,7 +159,11 @@ impl Camera {
         let [width, height] = self.size.map(f64::from);
         let across = (2.0 * at.x / width - 1.0) * self.half.x;
         let upwards = (1.0 - 2.0 * at.y / height) * self.half.y;
-        let direction = self.forward + self.right * across + self.above * upwards;
+        let sideways = self.right * across + self.above * upwards;
+        if self.is_parallel {
+            return (self.eye + sideways, self.forward);
+        }
+        let direction = self.forward + sideways;
         let aside = match eye {
             Eye::Only => return (self.eye, direction),
             Eye::Left => self.right * -self.shift,

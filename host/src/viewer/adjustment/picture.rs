@@ -1,6 +1,7 @@
 //! How the picture is taken and shown, under the names of the command line.
 
-use super::value::{choice, named, number, number_in};
+use super::value::{choice, named, number, number_in, position};
+use crate::projection::Projection;
 use crate::sampling::{Filter, Pattern, SampleCount};
 use crate::scene_file::{Degrees, Depth, Elevation, FieldOfView, Length, Steps, Stops, Tolerance};
 use crate::stereo::StereoMode;
@@ -8,6 +9,7 @@ use crate::tone::Curve;
 use crate::view::Shading;
 use crate::viewer::caption::name;
 use crate::viewer::session::DISTANCES;
+use glam::Vec3;
 use std::ops::RangeInclusive;
 
 /// Ways to share the screen between two eyes, and none.
@@ -46,8 +48,14 @@ pub enum PictureAdjustment {
     Elevation(f32),
     /// Its distance, radii.
     Distance(f32),
+    /// What it looks at, an offset in radii.
+    Target(Vec3),
+    /// Whether there is perspective.
+    Projection(Projection),
     /// Vertical field of view, degrees.
     FieldOfView(f32),
+    /// What an orthographic picture shows from its lower edge to the upper one, radii.
+    OrthoHeight(f32),
     /// Where the first light stands: degrees about the up axis.
     LightAzimuth(f32),
     /// Its height, degrees.
@@ -68,7 +76,7 @@ pub enum PictureAdjustment {
 
 impl PictureAdjustment {
     /// The names, as on the command line.
-    pub const NAMES: [&str; 20] = [
+    pub const NAMES: [&str; 23] = [
         "samples",
         "error",
         "block",
@@ -80,7 +88,10 @@ impl PictureAdjustment {
         "azimuth",
         "elevation",
         "distance",
+        "target",
+        "projection",
         "fov",
+        "ortho-height",
         "light-azimuth",
         "light-elevation",
         "light-distance",
@@ -106,6 +117,9 @@ impl PictureAdjustment {
             "azimuth" => Self::Azimuth(number::<Degrees>(value)?.0 as f32),
             "elevation" => Self::Elevation(number::<Elevation>(value)?.0),
             "distance" => Self::Distance(distance()?),
+            "target" => Self::Target(position(value)?),
+            "projection" => Self::Projection(choice(value, "projection")?),
+            "ortho-height" => Self::OrthoHeight(distance()?),
             "fov" => Self::FieldOfView(number::<FieldOfView>(value)?.0),
             "light-azimuth" => Self::LightAzimuth(number::<Degrees>(value)?.0 as f32),
             "light-elevation" => Self::LightElevation(number::<Elevation>(value)?.0),
@@ -145,6 +159,13 @@ mod tests {
         for (name, value, wanted) in [
             ("error", "0.02", PictureAdjustment::Error(0.02)),
             ("block", "4", PictureAdjustment::Block(4)),
+            ("target", "1,0,-2", PictureAdjustment::Target(Vec3::new(1.0, 0.0, -2.0))),
+            (
+                "projection",
+                "orthographic",
+                PictureAdjustment::Projection(Projection::Orthographic),
+            ),
+            ("ortho-height", "2.5", PictureAdjustment::OrthoHeight(2.5)),
             ("azimuth", "-30", PictureAdjustment::Azimuth(-30.0)),
             ("light-distance", "3", PictureAdjustment::LightDistance(3.0)),
             ("stereo", "none", PictureAdjustment::Stereo(None)),

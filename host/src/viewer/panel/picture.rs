@@ -2,6 +2,7 @@
 
 use super::Facts;
 use super::fields::Fields;
+use crate::projection::Projection;
 use crate::sampling::{Filter, Pattern, SampleCount};
 use crate::tone::Curve;
 use crate::view::Shading;
@@ -100,9 +101,22 @@ fn camera(fields: &mut Fields<'_>, facts: &Facts<'_>) {
     fields.number("distance", place.distance, nearest..=farthest, |radii| {
         of(PictureAdjustment::Distance(radii))
     });
-    fields.slider("fov", view.field_of_view, 1.0..=170.0, |degrees| {
-        of(PictureAdjustment::FieldOfView(degrees))
-    });
+    fields.choice(
+        "projection",
+        view.projection,
+        &Projection::ALL,
+        |projection| name(&projection),
+        |projection| of(PictureAdjustment::Projection(projection)),
+    );
+    if view.is_orthographic() {
+        fields.number("ortho-height", view.seen_height(), nearest..=farthest, |radii| {
+            of(PictureAdjustment::OrthoHeight(radii))
+        });
+    } else {
+        fields.slider("fov", view.field_of_view, 1.0..=170.0, |degrees| {
+            of(PictureAdjustment::FieldOfView(degrees))
+        });
+    }
 }
 
 fn eyes(fields: &mut Fields<'_>, facts: &Facts<'_>) {

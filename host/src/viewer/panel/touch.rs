@@ -53,7 +53,7 @@ impl Panel {
                 source: MouseWheelSource::Wheel,
                 modifiers,
             }),
-            Event::Key(Key::Character(character)) if is_claimed => {
+            Event::Key(Key::Character(character) | Key::Keypad(character)) if is_claimed => {
                 events.push(egui::Event::Text(character.to_string()));
             }
             Event::Key(key) if is_claimed => {

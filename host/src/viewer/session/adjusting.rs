@@ -1,8 +1,15 @@
 //! Giving things values.
 
-use super::{Effect, Session};
+use super::{DISTANCES, Effect, Session};
 use crate::stereo::Stereo;
 use crate::viewer::adjustment::{Adjustment, KernelAdjustment, PictureAdjustment};
+
+/// Why stereo and parallel rays exclude each other.
+pub const ONE_EYE: &str = "two eyes see the same where rays are parallel; \
+                           first choose perspective, or a picture for one eye";
+/// Why there is nothing to be given a height.
+const PERSPECTIVE: &str = "only orthographic pictures have a height of their own; \
+                           say first: set projection orthographic";
 
 impl Session {
     /// Gives something a value, and says what that brings about beyond the view; else says why that cannot be, and what to
@@ -38,10 +45,23 @@ impl Session {
             PictureAdjustment::Azimuth(degrees) => view.camera.azimuth = degrees,
             PictureAdjustment::Elevation(degrees) => view.camera.elevation = degrees,
             PictureAdjustment::Distance(radii) => view.camera.distance = radii,
+            PictureAdjustment::Target(offset) => view.target = offset,
+            PictureAdjustment::Projection(projection) => {
+                if projection != view.projection {
+                    self.toggle_projection()?;
+                }
+            }
             PictureAdjustment::FieldOfView(degrees) => view.field_of_view = degrees,
+            PictureAdjustment::OrthoHeight(radii) => {
+                if !view.is_orthographic() {
+                    return Err(PERSPECTIVE.into());
+                }
+                view.ortho_height = Some(radii);
+            }
             PictureAdjustment::LightAzimuth(degrees) => view.light.azimuth = degrees,
             PictureAdjustment::LightElevation(degrees) => view.light.elevation = degrees,
             PictureAdjustment::LightDistance(radii) => view.light.distance = radii,
+            PictureAdjustment::Stereo(Some(_)) if view.is_orthographic() => return Err(ONE_EYE.into()),
             PictureAdjustment::Stereo(mode) => {
                 view.stereo = mode.map(|mode| Stereo { mode, ..self.stereo });
                 self.stereo = view.stereo.unwrap_or(self.stereo);
@@ -55,6 +75,16 @@ impl Session {
             PictureAdjustment::Exposure(stops) => view.tone.exposure = stops,
             PictureAdjustment::Tone(curve) => view.tone.curve = curve,
         }
+        Ok(())
+    }
+
+    /// Takes the other projection; what is looked at stays as large as it is.
+    pub(super) fn toggle_projection(&mut self) -> Result<(), String> {
+        if self.view.stereo.is_some() {
+            return Err(ONE_EYE.into());
+        }
+        self.view.toggle_projection();
+        self.view.camera.distance = self.view.camera.distance.clamp(DISTANCES[0], DISTANCES[1]);
         Ok(())
     }
 
@@ -109,6 +139,8 @@ mod tests {
         assert_eq!(changed("depth 2").depth, 2);
         assert_eq!(changed("cutoff 0").cutoff, 0.0);
         assert_eq!(changed("fov 60").field_of_view, 60.0);
+        assert_eq!(changed("target 1,2,3").target, glam::vec3(1.0, 2.0, 3.0));
+        assert!(changed("projection orthographic").is_orthographic());
         assert_eq!(changed("azimuth 30").camera.azimuth, 30.0);
         assert_eq!(changed("elevation -10").camera.elevation, -10.0);
         assert_eq!(changed("distance 4").camera.distance, 4.0);
@@ -137,6 +169,24 @@ mod tests {
         assert_eq!(session.structure.parts.traversal, TraversalKind::Bvh2);
         assert_eq!(set(&mut session, "backend gpu"), Effect::Backend(BackendChoice::Gpu));
         assert!(matches!(set(&mut session, "triangle plucker"), Effect::Refused(_)));
+    }
+
+    #[test]
+    fn parallel_rays_are_for_one_eye_and_have_a_height() {
+        let mut session = session();
+        let refused = |effect| matches!(effect, Effect::Refused(reason) if reason.contains("; "));
+        assert!(refused(set(&mut session, "ortho-height 3")));
+        set(&mut session, "projection orthographic");
+        assert_eq!(set(&mut session, "ortho-height 3"), Effect::Render);
+        assert_eq!(session.view.seen_height(), 3.0);
+        assert!(refused(set(&mut session, "stereo rows")));
+        assert!(refused(session.apply(Input::NextStereo)));
+        assert_eq!(set(&mut session, "stereo none"), Effect::Nothing);
+        set(&mut session, "projection perspective");
+        set(&mut session, "stereo rows");
+        assert!(refused(set(&mut session, "projection orthographic")));
+        assert!(refused(session.apply(Input::ToggleProjection)));
+        assert!(!session.view.is_orthographic());
     }
 
     #[test]

@@ -10,9 +10,13 @@ use oktant_shared::orbit::{Orbit, Up};
 impl Session {
     /// Goes back to where camera and light were; how the picture looks stays.
     pub(super) fn reset(&mut self) {
+        self.flight.is_on = false;
         self.view = View {
             camera: self.home.camera,
             target: self.home.target,
+            projection: self.home.projection,
+            field_of_view: self.home.field_of_view,
+            ortho_height: self.home.ortho_height,
             light: self.home.light,
             ..self.view
         };
@@ -21,8 +25,12 @@ impl Session {
     /// Another scene has come, with its view. The shading, the samples and the kind of stereo that the person has chosen
     /// stay.
     pub fn open(&mut self, home: View, focus: Focus) {
+        self.flight.is_on = false;
         let mode = |view: &View| view.stereo.map(|stereo| stereo.mode);
-        let stereo = kept(mode(&self.view), mode(&self.home), mode(&home)).map(|mode| Stereo {
+        let mode = kept(mode(&self.view), mode(&self.home), mode(&home));
+        // Parallel rays are for one eye.
+        let mode = mode.filter(|_| !home.is_orthographic());
+        let stereo = mode.map(|mode| Stereo {
             mode,
             // Lengths are in units of the scene.
             ..home.stereo.unwrap_or(Stereo::new(mode))
@@ -43,8 +51,9 @@ impl Session {
     /// camera is new in any case.
     pub fn update(&mut self, home: View, focus: Focus, is_elsewhere: bool) {
         let (mine, old) = (self.view, self.home);
-        let camera = |view: &View| (view.camera, view.target, view.field_of_view, view.up);
-        let (camera, target, field_of_view, up) = if is_elsewhere {
+        let lens = |view: &View| (view.projection, view.field_of_view, view.ortho_height);
+        let camera = |view: &View| (view.camera, view.target, lens(view), view.up);
+        let (camera, target, (projection, field_of_view, ortho_height), up) = if is_elsewhere {
             camera(&home)
         } else {
             updated(camera(&mine), camera(&old), camera(&home))
@@ -52,7 +61,9 @@ impl Session {
         self.view = View {
             camera,
             target,
+            projection,
             field_of_view,
+            ortho_height,
             up,
             light: self.updated_light(&home, focus),
             shading: updated(mine.shading, old.shading, home.shading),
@@ -68,6 +79,10 @@ impl Session {
             tone: updated(mine.tone, old.tone, home.tone),
         };
         self.stereo = self.view.stereo.unwrap_or(self.stereo);
+        if self.view.is_orthographic() {
+            // They are for one eye.
+            self.view.stereo = None;
+        }
         (self.home, self.focus) = (home, focus);
     }
 }

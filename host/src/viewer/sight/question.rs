@@ -103,7 +103,9 @@ impl Question {
             View {
                 camera: view.camera,
                 target: view.target,
+                projection: view.projection,
                 field_of_view: view.field_of_view,
+                ortho_height: view.ortho_height,
                 up: view.up,
                 stereo: view.stereo,
                 shading: view.shading,
@@ -145,7 +147,7 @@ impl Question {
             }
             Ask::Cells(_) if frame.stereo != MONO => tell(Answer::Cells {
                 layer: None,
-                text: "cells are drawn for one eye only: press 3".into(),
+                text: "cells are drawn for one eye only: press L".into(),
                 count: 0,
             }),
             Ask::Cells(selection) => {

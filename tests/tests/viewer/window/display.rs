@@ -42,6 +42,13 @@ impl Display {
         xdotool(&["key", key]);
     }
 
+    /// Holds a key down for so many milliseconds.
+    pub fn hold(&self, key: &str, milliseconds: u64) {
+        xdotool(&["keydown", key]);
+        thread::sleep(Duration::from_millis(milliseconds));
+        xdotool(&["keyup", key]);
+    }
+
     /// Presses a button and lets it go; 4 is the wheel turned away from the person.
     pub fn click(&self, button: u32) {
         xdotool(&["click", &button.to_string()]);

@@ -1,5 +1,6 @@
 //! What the program says at its end.
 
+use oktant::projection::Projection;
 use oktant::sampling::Samples;
 use oktant::stereo::{Stereo, StereoMode};
 use oktant::tone::{Curve, Tone};
@@ -47,7 +48,15 @@ impl Report {
             "aces" => Curve::Aces,
             curve => panic!("tone {curve} in {self}"),
         };
+        let projection = match self.value("projection").as_str() {
+            "orthographic" => Projection::Orthographic,
+            _ => Projection::Perspective,
+        };
+        let is_parallel = projection == Projection::Orthographic;
         View {
+            projection,
+            field_of_view: numbers("fov")[0],
+            ortho_height: is_parallel.then(|| numbers("seen-height")[0]),
             camera: place("camera"),
             light: place("light"),
             target: glam::Vec3::from_slice(&numbers("target")),
