@@ -8,7 +8,7 @@ use crate::insight::Aspect;
 use crate::nearest::nearest;
 use std::path::PathBuf;
 
-const STEPS: [&str; 24] = [
+const STEPS: [&str; 25] = [
     "drag",
     "click",
     "pick",
@@ -22,6 +22,7 @@ const STEPS: [&str; 24] = [
     "save",
     "screenshot",
     "oracle",
+    "panel",
     "show",
     "move",
     "pin",
@@ -68,11 +69,8 @@ pub fn step(line: &str) -> Result<Step, String> {
         "open" => Step::Open(path(word, rest)?),
         "save" => Step::Save(path(word, rest)?),
         "screenshot" => Step::Screenshot(path(word, rest)?),
-        "oracle" => match rest {
-            "on" => Step::Oracle(true),
-            "off" => Step::Oracle(false),
-            _ => return Err(unknown(rest, "state of the oracle", &["on", "off"])),
-        },
+        "oracle" => Step::Oracle(on_or_off(rest, "state of the oracle")?),
+        "panel" => Step::Panel(on_or_off(rest, "state of the panel")?),
         "show" => Step::Show(shown(rest)?),
         "move" => Step::Move(place(word, rest)?),
         "pin" => Step::Pin(place(word, rest)?),
@@ -85,16 +83,28 @@ pub fn step(line: &str) -> Result<Step, String> {
             ("light", number) => Step::Ask(Input::RemoveLight(count("remove light", number)? as usize)),
             (what, _) => return Err(unknown(what, "thing to remove", &["light"])),
         },
+        "print" => match rest {
+            "" => Step::Print,
+            "settings" => Step::PrintSettings,
+            _ => return Err(unknown(rest, "thing to print", &["settings"])),
+        },
         "wait" => wait(rest)?,
         "expect" => Step::Expect(expectation(rest)?),
         "double-click" => alone(word, rest, Step::DoubleClick)?,
         "minimise" => alone(word, rest, Step::Minimise)?,
         "restore" => alone(word, rest, Step::Restore)?,
-        "print" => alone(word, rest, Step::Print)?,
         "unpin" => alone(word, rest, Step::Unpin)?,
         "quit" => alone(word, rest, Step::Quit)?,
         _ => return Err(unknown(word, "step", &STEPS)),
     })
+}
+
+fn on_or_off(word: &str, kind: &str) -> Result<bool, String> {
+    match word {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err(unknown(word, kind, &["on", "off"])),
+    }
 }
 
 /// A place in the window.

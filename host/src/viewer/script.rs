@@ -115,6 +115,7 @@ mod tests {
             screenshot shot.png
             oracle on
             oracle off
+            panel on
             show leaf-depth
             show picture
             move 3 4.5
@@ -125,6 +126,7 @@ mod tests {
             remove light 1
             pick 3 4
             print
+            print settings
             wait settled
             wait frames 3
             wait samples 20
@@ -164,6 +166,7 @@ mod tests {
                 Step::Screenshot("shot.png".into()),
                 Step::Oracle(true),
                 Step::Oracle(false),
+                Step::Panel(true),
                 Step::Show(Some(Aspect::LeafDepth)),
                 Step::Show(None),
                 Step::Move([3.0, 4.5]),
@@ -174,6 +177,7 @@ mod tests {
                 Step::Ask(Input::RemoveLight(1)),
                 Step::Ask(Input::Pick([3.0, 4.0])),
                 Step::Print,
+                Step::PrintSettings,
                 Step::WaitSettled,
                 Step::WaitFrames(3),
                 Step::WaitSamples(20),
@@ -229,10 +233,12 @@ mod tests {
             "wait frames -1",
             "quit now",
             "oracle maybe",
+            "panel",
             "show everything",
             "pin 3",
             "move -1 2",
             "unpin all",
+            "print figures",
             "expect message",
             "expect backend tpu",
         ] {

@@ -46,6 +46,8 @@ pub enum Step {
     Screenshot(PathBuf),
     /// Compare the picture with the oracle's, or no longer.
     Oracle(bool),
+    /// Open the panel, or close it.
+    Panel(bool),
     /// Show what pixels tell in the place of the picture, or the picture.
     Show(Option<Aspect>),
     /// Move the pointer there, in pixels from the upper left corner.
@@ -58,6 +60,8 @@ pub enum Step {
     Ask(Input),
     /// Print the figures.
     Print,
+    /// Print all settings.
+    PrintSettings,
     /// Wait until nothing changes any more.
     WaitSettled,
     /// Wait until so many new pictures were shown.

@@ -4,6 +4,7 @@
 
 #![cfg(test)]
 
+mod drag;
 mod files;
 mod look;
 mod oracle;
@@ -11,6 +12,7 @@ mod panel;
 mod saves;
 mod sight;
 mod start;
+mod tasks;
 mod window;
 
 use oktant::view::View;
