@@ -26,7 +26,7 @@ fn a_drag_is_fluid(source: &str) {
     let limit: Option<f64> = limit.map(|limit| limit.parse().expect("OKTANT_LIMIT is a number of milliseconds"));
     let session = Session::new();
     let repeats = if limit.is_some() { 100 } else { 8 };
-    let script = format!("wait settled\n{}print", DRAGS.repeat(repeats));
+    let script = format!("wait frames 1\n{}print", DRAGS.repeat(repeats));
     let arguments = [source, "--backend", "cpu", "--size", "1280x968"];
     let report = session.start(&arguments, &script).finish_within(PATIENCE);
     let [frame, response] = ["frame-milliseconds", "response-milliseconds"].map(|name| times(&report, name));
