@@ -71,6 +71,9 @@ impl Application {
             Ok(true) if self.image.is_some() && !self.is_shown => {
                 self.is_shown = true;
                 self.figures.frame(now);
+                if let Some(asked) = self.schedule.answered() {
+                    self.figures.response(asked, Instant::now());
+                }
                 let elapsed = self.start.elapsed();
                 self.figures.first_picture.get_or_insert(elapsed);
             }

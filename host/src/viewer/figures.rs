@@ -1,5 +1,6 @@
 //! What is measured while the window runs.
 
+use super::fluidity::Fluidity;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
@@ -35,6 +36,8 @@ pub struct Figures {
     pub samples: u32,
     /// The last [`HISTORY`] frames, the newest last.
     pub history: VecDeque<FrameTime>,
+    /// From what was asked for to the frame that showed it, milliseconds, the last [`HISTORY`] times.
+    pub responses: VecDeque<f64>,
     rays: u64,
     recent: VecDeque<Instant>,
 }
@@ -53,6 +56,25 @@ impl Figures {
             kernel: self.kernel,
         });
         self.recent.push_back(now);
+    }
+
+    /// What was asked for then is shown for the first time.
+    pub fn response(&mut self, asked: Instant, now: Instant) {
+        if self.responses.len() == HISTORY {
+            self.responses.pop_front();
+        }
+        let waited = now.saturating_duration_since(asked);
+        self.responses.push_back(waited.as_secs_f64() * 1e3);
+    }
+
+    /// Times between the last [`HISTORY`] frames, rests left out.
+    pub fn frame_times(&self) -> Option<Fluidity> {
+        Fluidity::of(self.history.iter().filter_map(|time| time.frame))
+    }
+
+    /// Times from the last inputs to their frames.
+    pub fn response_times(&self) -> Option<Fluidity> {
+        Fluidity::of(self.responses.iter().copied())
     }
 
     /// A pass is done: so many camera rays in so many milliseconds.
@@ -138,6 +160,20 @@ mod tests {
             figures.frame(at(6000 + i));
         }
         assert_eq!(figures.history.len(), HISTORY);
+        let times = figures.frame_times().unwrap();
+        assert_eq!((times.median, times.count), (1.0, HISTORY));
+    }
+
+    #[test]
+    fn answers_are_counted_from_what_was_asked() {
+        let start = Instant::now();
+        let mut figures = Figures::default();
+        assert_eq!(figures.response_times(), None);
+        for i in 0..2 * HISTORY as u64 {
+            figures.response(start, start + Duration::from_millis(i));
+        }
+        let times = figures.response_times().unwrap();
+        assert_eq!((times.greatest, times.count), (399.0, HISTORY));
     }
 
     #[test]

@@ -12,7 +12,7 @@ use crate::nearest::nearest;
 use glam::Vec3;
 use std::path::PathBuf;
 
-const STEPS: [&str; 30] = [
+const STEPS: [&str; 31] = [
     "drag",
     "click",
     "pick",
@@ -27,6 +27,7 @@ const STEPS: [&str; 30] = [
     "save",
     "screenshot",
     "oracle",
+    "panel",
     "show",
     "move",
     "pin",
@@ -147,11 +148,8 @@ pub fn step(line: &str) -> Result<Step, String> {
         },
         "save" => Step::Save(path(word, rest)?),
         "screenshot" => Step::Screenshot(path(word, rest)?),
-        "oracle" => match rest {
-            "on" => Step::Oracle(true),
-            "off" => Step::Oracle(false),
-            _ => return Err(unknown(rest, "state of the oracle", &["on", "off"])),
-        },
+        "oracle" => Step::Oracle(on_or_off(rest, "state of the oracle")?),
+        "panel" => Step::Panel(on_or_off(rest, "state of the panel")?),
         "show" => Step::Show(shown(rest)?),
         "move" => Step::Move(place(word, rest)?),
         "pin" => Step::Pin(place(word, rest)?),
@@ -177,16 +175,28 @@ pub fn step(line: &str) -> Result<Step, String> {
         "stand" => Step::Ask(Input::Stand(Bearing::parse(rest)?)),
         "fly" => fly(rest)?,
         "view" => view(rest)?,
+        "print" => match rest {
+            "" => Step::Print,
+            "settings" => Step::PrintSettings,
+            _ => return Err(unknown(rest, "thing to print", &["settings"])),
+        },
         "wait" => wait(rest)?,
         "expect" => Step::Expect(expectation(rest)?),
         "double-click" => alone(word, rest, Step::DoubleClick)?,
         "minimise" => alone(word, rest, Step::Minimise)?,
         "restore" => alone(word, rest, Step::Restore)?,
-        "print" => alone(word, rest, Step::Print)?,
         "unpin" => alone(word, rest, Step::Unpin)?,
         "quit" => alone(word, rest, Step::Quit)?,
         _ => return Err(unknown(word, "step", &STEPS)),
     })
+}
+
+fn on_or_off(word: &str, kind: &str) -> Result<bool, String> {
+    match word {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err(unknown(word, kind, &["on", "off"])),
+    }
 }
 
 /// A place in the window.

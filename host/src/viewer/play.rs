@@ -130,6 +130,11 @@ impl Application {
                     self.take_input(Input::ToggleOracle, now);
                 }
             }
+            Step::Panel(wanted) => {
+                if self.session.panel != *wanted {
+                    self.take_input(Input::TogglePanel, now);
+                }
+            }
             Step::Show(aspect) => {
                 if let Some(aspect) = aspect.filter(|aspect| !self.session.seeing.is_told(*aspect)) {
                     return Err(format!(
@@ -151,15 +156,9 @@ impl Application {
                 // Whoever does not look never finds out.
                 self.schedule.change(now);
             }
-            Step::Print => {
-                let text = self.report(now);
-                // Whoever closed standard output wants no more.
-                drop(std::io::stdout().write_all(text.as_bytes()));
-            }
-            Step::PrintCamera(form) => {
-                let text = self.written_camera(*form) + "\n";
-                drop(std::io::stdout().write_all(text.as_bytes()));
-            }
+            Step::PrintCamera(form) => print(&(self.written_camera(*form) + "\n")),
+            Step::Print => print(&self.report(now)),
+            Step::PrintSettings => print(&self.settings()),
             Step::WaitSettled => return wait_for(self.is_settled(now)),
             Step::WaitFrames(count) => return wait_for(self.figures.frames - since.frames >= *count),
             Step::WaitSamples(count) => return wait_for(self.is_shown && u64::from(self.samples) >= *count),
@@ -231,6 +230,11 @@ impl Application {
             },
         })
     }
+}
+
+/// Prints a text for whoever reads standard output; whoever closed it wants no more.
+fn print(text: &str) {
+    drop(std::io::stdout().write_all(text.as_bytes()));
 }
 
 /// How long a step takes at least.

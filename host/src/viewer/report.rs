@@ -2,6 +2,7 @@
 
 use super::application::Application;
 use super::caption::name;
+use super::fluidity::Fluidity;
 use super::oracle::Disagreement;
 use std::time::Instant;
 
@@ -64,6 +65,12 @@ impl Application {
         line("drawn", self.figures.drawn.to_string());
         line("frames-a-second", number(caption.frames_a_second));
         line("kernel-milliseconds", number(caption.kernel));
+        let draft = self.last_draft;
+        let depth = if draft.is_shallow { " shallow" } else { "" };
+        line("draft", format!("{}{depth}", draft.edge));
+        let times = |times: Option<Fluidity>| times.map_or_else(|| "-".into(), |times| times.to_string());
+        line("frame-milliseconds", times(self.figures.frame_times()));
+        line("response-milliseconds", times(self.figures.response_times()));
         line("megarays-a-second", number(caption.megarays_a_second));
         let [closest, shadow] = match self.figures.kinds {
             Some(kinds) => kinds.map(Some),

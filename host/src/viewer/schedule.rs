@@ -33,6 +33,10 @@ pub enum Decision {
 pub struct Schedule {
     wanted: u64,
     changed: Instant,
+    /// The first change that no picture was begun for.
+    unanswered: Option<Instant>,
+    /// The first change that the picture to be drawn next is an answer to.
+    answered: Option<Instant>,
     running: Option<Running>,
     shown: Option<(u64, Quality)>,
     /// The picture that cannot be had: what is shown in its place is another.
@@ -44,6 +48,8 @@ struct Running {
     number: u64,
     quality: Quality,
     cancelled: bool,
+    /// The first change that it is an answer to.
+    asked: Option<Instant>,
 }
 
 impl Schedule {
@@ -52,6 +58,8 @@ impl Schedule {
         Schedule {
             wanted: 1,
             changed: now,
+            unanswered: None,
+            answered: None,
             running: None,
             shown: None,
             missing: None,
@@ -62,6 +70,7 @@ impl Schedule {
     pub fn change(&mut self, now: Instant) {
         self.wanted += 1;
         self.changed = now;
+        self.unanswered.get_or_insert(now);
     }
 
     /// What to do now. Drafts are finished even if they are no longer wanted, so that something is seen to move.
@@ -93,6 +102,7 @@ impl Schedule {
             number: self.wanted,
             quality,
             cancelled: false,
+            asked: self.unanswered.take(),
         });
         self.wanted
     }
@@ -105,6 +115,13 @@ impl Schedule {
     /// A picture is shown, of that quality.
     pub fn shows(&mut self, number: u64, quality: Quality) {
         self.shown = Some((number, quality));
+        let asked = self.running.as_mut().and_then(|running| running.asked.take());
+        self.answered = self.answered.or(asked);
+    }
+
+    /// When the first change was that the picture just drawn is an answer to, told once.
+    pub fn answered(&mut self) -> Option<Instant> {
+        self.answered.take()
     }
 
     /// What is shown is gone: the window begins anew.
@@ -159,6 +176,33 @@ mod tests {
         schedule.finished();
         assert!(schedule.is_settled());
         assert_eq!(schedule.next(rested), Decision::Nothing, "no work without a change");
+    }
+
+    #[test]
+    fn a_picture_answers_the_first_change_since_the_last_was_begun() {
+        let start = Instant::now();
+        let at = |milliseconds| start + Duration::from_millis(milliseconds);
+        let mut schedule = Schedule::new(start);
+        schedule.change(at(1));
+        schedule.change(at(2));
+        let first = schedule.started(Quality::Draft);
+        schedule.change(at(3));
+        schedule.change(at(4));
+        assert_eq!(schedule.answered(), None, "nothing is shown");
+        schedule.shows(first, Quality::Draft);
+        schedule.finished();
+        assert_eq!(schedule.answered(), Some(at(1)));
+        assert_eq!(schedule.answered(), None, "once");
+        let second = schedule.started(Quality::Draft);
+        schedule.shows(second, Quality::Draft);
+        schedule.finished();
+        let finished = schedule.started(Quality::Final);
+        schedule.shows(finished, Quality::Final);
+        assert_eq!(
+            schedule.answered(),
+            Some(at(3)),
+            "what was not drawn counts with what is"
+        );
     }
 
     #[test]

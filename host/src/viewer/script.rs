@@ -125,6 +125,7 @@ mod tests {
             screenshot shot.png
             oracle on
             oracle off
+            panel on
             show leaf-depth
             show picture
             move 3 4.5
@@ -142,6 +143,7 @@ mod tests {
             fly left 1.5
             view save 1
             view recall 9
+            print settings
             wait settled
             wait frames 3
             wait samples 20
@@ -198,6 +200,7 @@ mod tests {
                 Step::Screenshot("shot.png".into()),
                 Step::Oracle(true),
                 Step::Oracle(false),
+                Step::Panel(true),
                 Step::Show(Some(Aspect::LeafDepth)),
                 Step::Show(None),
                 Step::Move([3.0, 4.5]),
@@ -219,6 +222,7 @@ mod tests {
                 }),
                 Step::Ask(Input::SaveView(1)),
                 Step::Ask(Input::RecallView(9)),
+                Step::PrintSettings,
                 Step::WaitSettled,
                 Step::WaitFrames(3),
                 Step::WaitSamples(20),
@@ -279,6 +283,7 @@ mod tests {
             "wait frames -1",
             "quit now",
             "oracle maybe",
+            "panel",
             "show everything",
             "pin 3",
             "move -1 2",
@@ -295,6 +300,7 @@ mod tests {
             "view",
             "view save 0",
             "view recall 10",
+            "print figures",
             "expect message",
             "expect backend tpu",
         ] {

@@ -47,6 +47,8 @@ pub enum Step {
     Screenshot(PathBuf),
     /// Compare the picture with the oracle's, or no longer.
     Oracle(bool),
+    /// Open the panel, or close it.
+    Panel(bool),
     /// Show what pixels tell in the place of the picture, or the picture.
     Show(Option<Aspect>),
     /// Move the pointer there, in pixels from the upper left corner.
@@ -63,6 +65,8 @@ pub enum Step {
     LoseDevice,
     /// Print the camera.
     PrintCamera(Form),
+    /// Print all settings.
+    PrintSettings,
     /// Wait until nothing changes any more.
     WaitSettled,
     /// Wait until so many new pictures were shown.

@@ -6,6 +6,7 @@
 
 mod camera;
 mod failures;
+mod drag;
 mod files;
 mod look;
 mod oracle;
@@ -14,6 +15,7 @@ mod saves;
 mod several;
 mod sight;
 mod start;
+mod tasks;
 mod window;
 
 use oktant::view::View;

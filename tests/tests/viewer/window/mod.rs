@@ -125,19 +125,28 @@ pub struct Running {
 impl Running {
     /// Waits for its end, which must be a good one.
     pub fn finish(&mut self) -> Report {
-        let report = self.wait();
+        self.finish_within(PATIENCE)
+    }
+
+    /// Waits so long for its end, which must be a good one.
+    pub fn finish_within(&mut self, patience: Duration) -> Report {
+        let report = self.wait_within(patience);
         assert_eq!(report.code, Some(0), "{report}");
         report
     }
 
     /// Waits for its end.
     pub fn wait(&mut self) -> Report {
+        self.wait_within(PATIENCE)
+    }
+
+    fn wait_within(&mut self, patience: Duration) -> Report {
         let start = Instant::now();
         let status = loop {
             if let Some(status) = self.child.try_wait().expect("a child can be waited for") {
                 break status;
             }
-            assert!(start.elapsed() < PATIENCE, "the window does not close");
+            assert!(start.elapsed() < patience, "the window does not close");
             thread::sleep(Duration::from_millis(5));
         };
         // Little enough to fit into a pipe.
@@ -153,6 +162,22 @@ impl Running {
             standard_output: read(self.child.stdout.as_mut().map(|pipe| pipe as &mut dyn Read)),
             standard_error: read(self.child.stderr.as_mut().map(|pipe| pipe as &mut dyn Read)),
         }
+    }
+}
+
+impl Running {
+    /// Whether it has.
+    pub fn has_ended(&mut self) -> bool {
+        self.child.try_wait().expect("a child can be waited for").is_some()
+    }
+
+    /// Memory that is resident, bytes, as Linux tells it.
+    pub fn resident_memory(&self) -> u64 {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id()));
+        let status = status.expect("the process is there");
+        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+        let kibibytes = line.map(|line| line.trim().trim_end_matches("kB").trim().parse::<u64>());
+        kibibytes.expect("Linux tells it").expect("a number") << 10
     }
 }
 
