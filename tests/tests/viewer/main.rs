@@ -5,8 +5,8 @@
 #![cfg(test)]
 
 mod camera;
-mod failures;
 mod drag;
+mod failures;
 mod files;
 mod look;
 mod oracle;
