@@ -158,7 +158,6 @@ impl Application {
         let (state, complaint) = StateFile::read(options.state.clone());
         let mut application = Application {
             start,
-            state,
             saved_views: SavedViews::default(),
             clipboard: None,
             flown: None,

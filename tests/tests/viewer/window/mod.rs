@@ -166,19 +166,6 @@ impl Running {
 }
 
 impl Running {
-    /// Whether it has.
-    pub fn has_ended(&mut self) -> bool {
-        self.child.try_wait().expect("a child can be waited for").is_some()
-    }
-
-    /// Memory that is resident, bytes, as Linux tells it.
-    pub fn resident_memory(&self) -> u64 {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id()));
-        let status = status.expect("the process is there");
-        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
-        let kibibytes = line.map(|line| line.trim().trim_end_matches("kB").trim().parse::<u64>());
-        kibibytes.expect("Linux tells it").expect("a number") << 10
-    }
 }
 
 impl Drop for Running {
