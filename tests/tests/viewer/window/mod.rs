@@ -165,9 +165,6 @@ impl Running {
     }
 }
 
-impl Running {
-}
-
 impl Drop for Running {
     fn drop(&mut self) {
         // It has ended, or the test failed.
