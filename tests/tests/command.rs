@@ -106,7 +106,7 @@ fn wrong_arguments_are_refused_with_code_2() {
         &["render", "bunny", "-o", "a.png", "--fov", "180"],
         &["render", "bunny", "-o", "a.png", "--up", "x"],
         &["render", "bunny", "-o", "a.png", "--octree", "depth=99"],
-        &["render", "bunny", "balls", "-o", "a.png"],
+        &["render", "bunny", "a.toml", "-o", "a.png"],
         &["draw", "bunny"],
         &["--fast"],
         &["info", "--size", "1x1"],

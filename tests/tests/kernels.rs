@@ -168,7 +168,7 @@ fn kernels_that_do_not_fit_are_told_why() {
     good.renamed("present_vertex", "vertex").write(folder.path());
     refused(&["no entry point `present_vertex`"]);
     good.narrowed(8).write(folder.path());
-    refused(&["4 x 8 x 1", "8 x 8 x 1"]);
+    refused(&["4 x 16 x 1", "8 x 16 x 1"]);
 
     good.write(folder.path());
     assert_refused(

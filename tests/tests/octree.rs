@@ -176,7 +176,7 @@ fn measure(device: &Device, size: UVec2) {
     for subject in subjects.iter().filter(|subject| subject.name.contains(&wanted)) {
         let time = |octree| times(subject, &scene(subject, octree), device);
         let mean = |times: &[f64]| times.iter().sum::<f64>() / times.len() as f64;
-        let all = limits().map(|options| (time(options.clone()), options));
+        let all = limits().map(|options| (time(options), options));
         let (least, options) = all.min_by(|a, b| mean(&a.0).total_cmp(&mean(&b.0))).unwrap();
         let of = |costs| {
             let own = time(OctreeOptions {

@@ -26,8 +26,8 @@ const HELP: [(&str, &str); 22] = [
     ("C > <", "cells of the structure, their level"),
     ("Ctrl+click, Ctrl+Shift", "pin a ray, show a material"),
     ("Ctrl+S", "save the picture"),
-    ("Ctrl+O, Ctrl+R", "open files, recent files"),
-    ("drop files", "open them; Shift: beside these"),
+    ("Ctrl+O, with Shift", "open files, beside these"),
+    ("drop files, Ctrl+R", "open them, list recent files"),
     ("Esc", "circle, unpin, quit"),
 ];
 

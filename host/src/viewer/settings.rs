@@ -62,7 +62,12 @@ fn picture(steps: &mut Steps, session: &Session) {
     steps.set("shading", name(&view.shading));
     steps.set("depth", view.depth);
     steps.set("cutoff", view.cutoff);
+    steps.set("target", triple(view.target));
+    steps.set("projection", name(&view.projection));
     steps.set("fov", view.field_of_view);
+    if let (true, Some(height)) = (view.is_orthographic(), view.ortho_height) {
+        steps.set("ortho-height", height);
+    }
     for (prefix, place) in [("", view.camera), ("light-", view.light)] {
         steps.set(&format!("{prefix}azimuth"), place.azimuth);
         steps.set(&format!("{prefix}elevation"), place.elevation);
@@ -211,6 +216,7 @@ mod tests {
             "pattern r2",
             "filter tent",
             "shading flat",
+            "target 0.1,0.2,-0.3",
             "depth 2",
             "cutoff 0",
             "azimuth 0.1",
@@ -252,7 +258,15 @@ mod tests {
             assert_eq!(same.falloff_radius, light.falloff_radius, "light {index}");
             assert!(same.position.distance(light.position) < 1e-5, "light {index}: {same:?}");
         }
-        assert_eq!(settings(&again), settings(&changed));
+        // Places of lights are turned into directions and back.
+        let (again, changed) = (settings(&again), settings(&changed));
+        let both = again.split([' ', ',', '\n']).zip(changed.split([' ', ',', '\n']));
+        for (is, wanted) in both {
+            let numbers = is.parse::<f32>().ok().zip(wanted.parse::<f32>().ok());
+            let is_near = numbers.is_some_and(|(is, wanted)| (is - wanted).abs() < 1e-5);
+            assert!(is == wanted || is_near, "{is} is not {wanted} in {again}");
+        }
+        assert_eq!(again.lines().count(), changed.lines().count());
     }
 
     #[test]
@@ -261,7 +275,12 @@ mod tests {
         session.apply(Input::Adjust(Adjustment::parse("stereo rows").expect("it is one")));
         session.apply(Input::Adjust(Adjustment::parse("eye-distance 1").expect("it is one")));
         session.apply(Input::Adjust(Adjustment::parse("convergence 1").expect("it is one")));
-        let text = settings(&session);
+        let mut text = settings(&session);
+        // Without perspective there are no two eyes.
+        for setting in ["stereo none", "projection orthographic", "ortho-height 2"] {
+            session.apply(Input::Adjust(Adjustment::parse(setting).expect("it is one")));
+        }
+        text += &settings(&session);
         let names = super::super::adjustment::PictureAdjustment::NAMES.map(|name| format!("set {name} "));
         let of_materials =
             super::super::adjustment::MaterialAdjustment::NAMES.map(|name| format!("set material 1 {name} "));

@@ -11,7 +11,7 @@ use std::path::Path;
 fn is_listed(wanted: &str) -> bool {
     caption::help().iter().any(|line| {
         let keys = line.text.split("   ").next().unwrap_or_default();
-        keys == wanted || keys.split([' ', ',']).any(|key| key == wanted)
+        keys.split(", ").chain(keys.split([' ', ','])).any(|key| key == wanted)
     })
 }
 

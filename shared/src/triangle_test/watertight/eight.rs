@@ -30,6 +30,9 @@ pub struct EightCrossings {
 impl Eight {
     /// For prepared rays, of which origins and directions are given by axis. None where the largest component is along one
     /// axis for one and along another for another.
+    ///
+    /// # Safety
+    /// The processor has AVX2.
     #[target_feature(enable = "avx2")]
     #[inline]
     pub fn prepare(origin: [__m256; 3], direction: [__m256; 3]) -> Option<Self> {
@@ -64,7 +67,7 @@ impl Eight {
     /// operation the same as that of one.
     ///
     /// # Safety
-    /// There are rows at all three places.
+    /// The processor has AVX2, and there are rows at all three places.
     #[target_feature(enable = "avx2")]
     #[inline]
     pub unsafe fn crossings(&self, [a, b, c]: [*const Vec4; 3]) -> EightCrossings {
