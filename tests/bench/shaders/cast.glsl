@@ -10,8 +10,8 @@ layout(set = 0, binding = 0, std430) readonly buffer Nodes { uvec4 nodes[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Triangles { vec4 triangles[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Ids { uint ids[]; };
 layout(set = 1, binding = 0, std140) uniform Frame {
-    layout(offset = 64) vec3 root_low;
-    layout(offset = 80) vec3 root_high;
+    layout(offset = 80) vec3 root_low;
+    layout(offset = 96) vec3 root_high;
 };
 layout(set = 2, binding = 0, std430) writeonly buffer Hits { uvec4 hits[]; };
 layout(set = 2, binding = 1, std430) readonly buffer Rays { vec4 rays[]; };

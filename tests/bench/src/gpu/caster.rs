@@ -18,7 +18,7 @@ const LINE: u32 = 64;
 const LINES_PER_ROW: u32 = 32_768;
 
 /// The shaders count on it.
-const _: () = assert!(offset_of!(Frame, root) == 64);
+const _: () = assert!(offset_of!(Frame, root) == 80);
 
 /// Makes what it takes to cast rays on a device.
 pub struct Caster<'a> {
