@@ -55,22 +55,13 @@ pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Accident> {
     panic::catch_unwind(AssertUnwindSafe(work)).map_err(|payload| Accident::new(payload.as_ref()))
 }
 
-/// As [`caught`], for libraries that panic where they should say what is wrong: nothing is printed meanwhile.
-pub fn caught_silently<T>(work: impl FnOnce() -> T) -> Result<T, Accident> {
-    let hook = panic::take_hook();
-    panic::set_hook(Box::new(|_| {}));
-    let result = caught(work);
-    panic::set_hook(hook);
-    result
-}
-
 thread_local! {
     /// Whether panics of this thread are expected.
     static IS_QUIET: Cell<bool> = const { Cell::new(false) };
 }
 
-/// As [`caught`], for calls that panic on this very thread where they should return an error: that prints nothing. It may be
-/// called often, and by many threads at once.
+/// As [`caught`], for calls of libraries that panic on this very thread where they should return an error: that prints nothing.
+/// It may be called often, and by many threads at once.
 pub fn caught_quietly<T>(work: impl FnOnce() -> T) -> Result<T, Accident> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {

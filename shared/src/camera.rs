@@ -109,15 +109,19 @@ mod tests {
     use super::*;
     use crate::orbit::Up;
 
-    #[test]
-    fn the_middle_and_the_edges_of_the_picture() {
-        let orbit = Orbit {
+    fn orbit() -> Orbit {
+        Orbit {
             center: Vec3::ONE,
             radius: 3.0,
             azimuth: 30.0,
             elevation: 20.0,
             up: Up::Y,
-        };
+        }
+    }
+
+    #[test]
+    fn the_middle_and_the_edges_of_the_picture() {
+        let orbit = orbit();
         let camera = Camera::on_orbit(&orbit, 40.0, 1280, 968);
         let angle = |x, y| {
             let direction = camera.ray(x, y, 0.0).direction.normalize();
@@ -134,13 +138,7 @@ mod tests {
 
     #[test]
     fn parallel_rays_begin_in_a_plane_and_meet_the_edges() {
-        let orbit = Orbit {
-            center: Vec3::ONE,
-            radius: 3.0,
-            azimuth: 30.0,
-            elevation: 20.0,
-            up: Up::Y,
-        };
+        let orbit = orbit();
         let camera = Camera::orthographic_on_orbit(&orbit, 4.0, 1280, 968);
         let [right, up] = orbit.right_and_up();
         assert!(camera.ray(640.0, 484.0, 0.0).at(3.0).distance(Vec3::ONE) < 1e-5);

@@ -214,92 +214,52 @@ fn indexed_triangles_are_hit_the_same() {
     }
 }
 
-/// Rays at a scene whose arrays end too early.
-fn cut<V: Traversal>(traversal: TraversalKind, cut: impl for<'a> Fn(Scene<'a>) -> Scene<'a>) {
+/// Rays, alone and eight together, at a scene whose arrays end too early must find out.
+macro_rules! cut {
+    ($($alone:ident $together:ident $message:literal $way:ident $kind:expr, $cut:expr;)+) => {$(
+        #[test]
+        #[should_panic = $message]
+        fn $alone() {
+            ask($kind, $cut, |scene, ray| {
+                $way::closest_hit(scene, ray);
+            });
+        }
+
+        #[test]
+        #[should_panic = $message]
+        fn $together() {
+            ask($kind, $cut, |scene, ray| $way::closest_hits(scene, &[*ray; 8], &mut [Hit::miss(0.0); 8]));
+        }
+    )+};
+}
+
+fn ask(traversal: TraversalKind, cut: fn(Scene<'_>) -> Scene<'_>, ask: fn(&Scene<'_>, &Ray)) {
     let subject = &Subject::all()[0];
     let scene = subject.scene(traversal);
     for ray in subject.rays(RayClass::ALL[0], 1000) {
-        V::closest_hit(&cut(scene.view()), &ray);
+        ask(&cut(scene.view()), &ray);
     }
 }
 
-/// The same of eight rays that go together.
-fn cut_together<V: Traversal>(traversal: TraversalKind, cut: impl for<'a> Fn(Scene<'a>) -> Scene<'a>) {
-    let subject = &Subject::all()[0];
-    let scene = subject.scene(traversal);
-    for ray in subject.rays(RayClass::ALL[0], 1000) {
-        V::closest_hits(&cut(scene.view()), &[ray; 8], &mut [Hit::miss(0.0); 8]);
-    }
-}
-
-#[test]
-#[should_panic = "there is no such node"]
-fn nodes_that_are_not_there_are_not_read() {
-    cut::<Standard>(TraversalKind::Octants, |scene| Scene {
+cut! {
+    nodes_that_are_not_there_are_not_read nodes_that_are_not_there_are_not_read_together
+    "there is no such node" Standard TraversalKind::Octants, |scene| Scene {
         nodes: &scene.nodes[..NODE_VECTORS as usize],
         ..scene
-    });
-}
-
-#[test]
-#[should_panic = "there is no such triangle"]
-fn triangles_that_are_not_there_are_not_read() {
-    cut::<Standard>(TraversalKind::Octants, |scene| Scene {
+    };
+    triangles_that_are_not_there_are_not_read triangles_that_are_not_there_are_not_read_together
+    "there is no such triangle" Standard TraversalKind::Octants, |scene| Scene {
         triangles: &scene.triangles[..3],
         ..scene
-    });
-}
-
-#[test]
-#[should_panic = "there is no such triangle"]
-fn indices_that_are_not_there_are_not_read() {
-    cut::<Compact>(TraversalKind::Compact, |scene| Scene {
+    };
+    indices_that_are_not_there_are_not_read indices_that_are_not_there_are_not_read_together
+    "there is no such triangle" Compact TraversalKind::Compact, |scene| Scene {
         references: &scene.references[..3],
         ..scene
-    });
-}
-
-#[test]
-#[should_panic = "there is no such vertex"]
-fn corners_that_are_not_there_are_not_read() {
-    cut::<Compact>(TraversalKind::Compact, |scene| Scene {
+    };
+    corners_that_are_not_there_are_not_read corners_that_are_not_there_are_not_read_together
+    "there is no such vertex" Compact TraversalKind::Compact, |scene| Scene {
         triangles: &scene.triangles[..1],
         ..scene
-    });
-}
-
-#[test]
-#[should_panic = "there is no such node"]
-fn nodes_that_are_not_there_are_not_read_together() {
-    cut_together::<Standard>(TraversalKind::Octants, |scene| Scene {
-        nodes: &scene.nodes[..NODE_VECTORS as usize],
-        ..scene
-    });
-}
-
-#[test]
-#[should_panic = "there is no such triangle"]
-fn triangles_that_are_not_there_are_not_read_together() {
-    cut_together::<Standard>(TraversalKind::Octants, |scene| Scene {
-        triangles: &scene.triangles[..3],
-        ..scene
-    });
-}
-
-#[test]
-#[should_panic = "there is no such triangle"]
-fn indices_that_are_not_there_are_not_read_together() {
-    cut_together::<Compact>(TraversalKind::Compact, |scene| Scene {
-        references: &scene.references[..3],
-        ..scene
-    });
-}
-
-#[test]
-#[should_panic = "there is no such vertex"]
-fn corners_that_are_not_there_are_not_read_together() {
-    cut_together::<Compact>(TraversalKind::Compact, |scene| Scene {
-        triangles: &scene.triangles[..1],
-        ..scene
-    });
+    };
 }

@@ -26,7 +26,7 @@ use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use glam::{Vec4, uvec2};
-use layouts::{CHOOSE, workgroup};
+use layouts::CHOOSE;
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
 use oktant_shared::parts::Parts;
@@ -48,8 +48,10 @@ const RAYS_PER_DISPATCH: u64 = 1 << 24;
 /// The same for camera rays that have trees of rays.
 const TREES_PER_DISPATCH: u64 = 1 << 21;
 
-/// Width of the workgroups of the entry points that look at pixels, which are twice as high, and edge of the one that chooses.
+/// Width of the workgroups of the entry points that look at pixels, and edge of those of the one that chooses.
 const TILE: u32 = 8;
+/// Height of the workgroups of the entry points that look at pixels.
+const TILE_HEIGHT: u32 = 16;
 /// Size of the workgroups of the entry points that take an array.
 const LINE: u32 = 64;
 /// Rays of an array that a dispatch may have where some take very long: as of a grid one of whose cells holds most triangles.
@@ -163,8 +165,8 @@ impl GpuBackend {
         let (width, height) = frame.size().into();
         let (budget, samples) = self.budget(frame, frame.sample_count);
         // Whole workgroups: a row of the next band must not be added twice.
-        let rows = (budget / u64::from(width.max(1) * samples)) as u32 / (2 * TILE) * (2 * TILE);
-        let rows = rows.clamp(2 * TILE, height.next_multiple_of(2 * TILE));
+        let rows = (budget / u64::from(width.max(1) * samples)) as u32 / TILE_HEIGHT * TILE_HEIGHT;
+        let rows = rows.clamp(TILE_HEIGHT, height.next_multiple_of(TILE_HEIGHT));
         let mut bands = Vec::new();
         for first_sample in (0..frame.sample_count).step_by(samples as usize) {
             for first_row in (0..height).step_by(rows as usize) {
@@ -333,8 +335,7 @@ impl Backend for GpuBackend {
             pass.set_bind_group(1, &frame, &[]);
             pass.set_bind_group(2, &group, &[]);
             pass.set_bind_group(3, &self.scene.appearance, &[]);
-            let [across, down, _] = workgroup("hits");
-            pass.dispatch_workgroups(width.div_ceil(across), height.div_ceil(down), 1);
+            pass.dispatch_workgroups(width.div_ceil(TILE), height.div_ceil(TILE_HEIGHT), 1);
         }
         gpu.queue.submit([encoder.finish()]);
         gpu.read(&hits)
@@ -426,12 +427,11 @@ impl Gpu {
             pass.set_bind_group(1, &frame_group, &[]);
             pass.set_bind_group(2, &picture.group, &[]);
             pass.set_bind_group(3, &scene.appearance, &[]);
-            let [across, down, _] = workgroup(scene.entry);
             if frame.is_listed == 0 {
-                pass.dispatch_workgroups(picture.width.div_ceil(across), rows.div_ceil(down), 1);
+                pass.dispatch_workgroups(picture.width.div_ceil(TILE), rows.div_ceil(TILE_HEIGHT), 1);
             } else {
                 // Most find nothing to do, which takes less than asking first how many are needed.
-                let workgroups = (picture.width * rows).div_ceil(across * down);
+                let workgroups = (picture.width * rows).div_ceil(TILE * TILE_HEIGHT);
                 pass.dispatch_workgroups(workgroups.min(LINES_PER_ROW), workgroups.div_ceil(LINES_PER_ROW), 1);
             }
         }

@@ -200,6 +200,11 @@ impl Session {
                 return Effect::ViewSaved(number);
             }
             Input::CopyCamera(form) => return Effect::Copy(form),
+            // What lies on top first.
+            Input::Leave if self.recent => {
+                self.recent = false;
+                return Effect::Redraw;
+            }
             Input::ToggleFlight | Input::Leave if self.flight.is_on => {
                 self.flight.is_on = false;
                 return Effect::Land;
@@ -246,10 +251,6 @@ impl Session {
             }
             Input::See(wish) => {
                 self.seeing.apply(wish, &self.view, self.size);
-                return Effect::Redraw;
-            }
-            Input::Leave if self.recent => {
-                self.recent = false;
                 return Effect::Redraw;
             }
             Input::Leave if self.seeing.pin.is_some() => {

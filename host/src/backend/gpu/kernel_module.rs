@@ -1,7 +1,7 @@
 //! The compiled kernel and the two ways it can go to a driver.
 
 use super::kernel::KernelModule;
-use crate::accident::caught_silently;
+use crate::accident::caught_quietly;
 use serde::Deserialize;
 use std::borrow::Cow;
 
@@ -129,7 +129,7 @@ pub(super) fn create_module(
             translated()
         } else {
             // naga panics where a module makes no sense in some ways.
-            caught_silently(translated).map_err(|accident| format!("naga does not understand it: {accident}"))?
+            caught_quietly(translated).map_err(|accident| format!("naga does not understand it: {accident}"))?
         }
     };
     Ok(module)

@@ -1,6 +1,6 @@
 //! Which buffers the entry points take.
 
-use super::{LINE, TILE};
+use super::{LINE, TILE, TILE_HEIGHT};
 use wgpu::BindGroupLayout;
 
 /// What the entry points that render begin with.
@@ -90,7 +90,7 @@ pub fn compute_pipeline(
 pub fn workgroup(entry: &str) -> [u32; 3] {
     match entry {
         CHOOSE => [TILE, TILE, 1],
-        _ if entry == "hits" || entry.starts_with(RENDER) => [TILE, 2 * TILE, 1],
+        _ if entry == "hits" || entry.starts_with(RENDER) => [TILE, TILE_HEIGHT, 1],
         _ => [LINE, 1, 1],
     }
 }

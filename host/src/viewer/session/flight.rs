@@ -169,6 +169,8 @@ mod tests {
                 session.view.seen_height(),
                 session.unit_orbit().direction(),
             );
+            session.apply(Input::ToggleRecent);
+            assert_eq!(session.apply(Input::Leave), Effect::Redraw, "the list is closed first");
             assert_eq!(session.apply(Input::Leave), Effect::Land);
             assert_eq!(session.flying_speed(), None);
             session.circle(Some(0.7));

@@ -18,6 +18,8 @@ const ORIGIN_SPREAD: f32 = 1.0 / 16.0;
 pub(super) struct Packet {
     /// As of [`crate::slabs::Slabs`], by axis.
     pub reciprocal: [__m256; 3],
+    /// The same; the bits of powers of two are to be added.
+    pub unscaled: [__m256i; 3],
     /// As of [`crate::slabs::Slabs`], by axis.
     pub offset: [__m256; 3],
     /// As of [`crate::slabs::Slabs`].
@@ -118,8 +120,10 @@ impl Packet {
         if _mm256_movemask_ps(differs) != 0 {
             return None;
         }
+        let one = _mm256_set1_epi32(127 << 23);
         Some(Packet {
             reciprocal,
+            unscaled: reciprocal.map(|reciprocal| _mm256_sub_epi32(_mm256_castps_si256(reciprocal), one)),
             offset,
             octant,
             test,

@@ -39,19 +39,16 @@ impl Raster {
     #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     #[inline]
     fn new(packet: &Packet, children: &Children) -> Self {
-        let one = _mm256_set1_epi32(127 << 23);
         let mut raster = Raster {
             steps: packet.reciprocal,
             starts: packet.offset,
             t_min: packet.t_min,
         };
         for axis in 0..3 {
-            let reciprocal = packet.reciprocal[axis];
-            let unscaled = _mm256_sub_epi32(_mm256_castps_si256(reciprocal), one);
             let exponent = _mm256_set1_epi32(children.exponents[axis]);
-            raster.steps[axis] = _mm256_castsi256_ps(_mm256_add_epi32(exponent, unscaled));
+            raster.steps[axis] = _mm256_castsi256_ps(_mm256_add_epi32(exponent, packet.unscaled[axis]));
             let corner = _mm256_set1_ps(children.corner[axis]);
-            raster.starts[axis] = _mm256_fmadd_ps(corner, reciprocal, packet.offset[axis]);
+            raster.starts[axis] = _mm256_fmadd_ps(corner, packet.reciprocal[axis], packet.offset[axis]);
         }
         raster
     }
