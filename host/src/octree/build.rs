@@ -13,11 +13,8 @@ use glam::{UVec3, Vec3};
 use oktant_shared::octree::{CELL_MARGIN, INNER, Node, Root};
 use rayon::prelude::*;
 
-/// Levels in a row at which splitting does not pay by itself that are looked through for one where it does.
-const PATIENCE: u32 = 2;
-
-/// References of a tree that is yet to be pruned, in budgets.
-const UNPRUNED: usize = 2;
+/// References of a tree that is yet to be pruned, in budgets: the first levels of what is large must leave room for what is small.
+const UNPRUNED: usize = 4;
 
 /// A cell that may yet be split.
 struct Open {
@@ -28,8 +25,6 @@ struct Open {
     /// Its references within the level's list.
     first: usize,
     count: usize,
-    /// Levels in a row, up to its parent's, at which splitting did not pay by itself.
-    vain: u32,
 }
 
 /// A way to split a cell.
@@ -40,8 +35,6 @@ struct Split {
     counts: [u32; 8],
     /// Sum of `counts`.
     total: usize,
-    /// [`Open::vain`] of the children.
-    vain: u32,
 }
 
 pub(super) fn build(mesh: &Mesh, options: &OctreeOptions, progress: Progress<'_>) -> Result<Octree, BuildError> {
@@ -67,7 +60,7 @@ pub(super) fn build(mesh: &Mesh, options: &OctreeOptions, progress: Progress<'_>
     .split_all(hittable.ids, progress);
     let cells = match options.leaf {
         Some(_) => cells,
-        None => pruned(&cells, &options.costs, budget),
+        None => pruned(cells, &options.costs, budget),
     };
     Ok(Octree {
         root: no_deeper(root, u32::from(levels(&cells.nodes).into_iter().max().unwrap_or(0))),
@@ -97,7 +90,6 @@ impl Levels<'_> {
             place: UVec3::ZERO,
             first: 0,
             count: list.len(),
-            vain: 0,
         }];
         for level in 0..=self.root.depth {
             if open.is_empty() {
@@ -123,7 +115,7 @@ impl Levels<'_> {
     /// The cells' edges are `2^size` smallest cells long.
     fn split_level(&mut self, open: Vec<Open>, list: Vec<u32>, size: u32) -> (Vec<Open>, Vec<u32>) {
         let masks = self.masks(&open, &list, size);
-        let mut splits = self.promising(&open, &masks, size);
+        let mut splits = self.paying(&open, &masks, size);
         self.keep_budget(&open, &list, &mut splits);
 
         let mut next = Vec::with_capacity(splits.len() * 4);
@@ -145,7 +137,6 @@ impl Levels<'_> {
                         place: cell.place + (upper << (size - 1)),
                         first: length,
                         count: *count as usize,
-                        vain: split.vain,
                     });
                     length += *count as usize;
                 }
@@ -193,8 +184,11 @@ impl Levels<'_> {
         masks
     }
 
-    /// The splits that may lower the expected cost of a ray through the cell, by themselves or with those below.
-    fn promising(&self, open: &[Open], masks: &[u8], size: u32) -> Vec<Split> {
+    /// The splits that lower the expected cost of a ray through the cell; with a limit of references, all beyond it.
+    ///
+    /// J. D. MacDonald and K. S. Booth, "Heuristics for ray tracing using space subdivision", The Visual Computer 6, 1990: a ray
+    /// passes through a child with the probability that its surface has of the cell's.
+    fn paying(&self, open: &[Open], masks: &[u8], size: u32) -> Vec<Split> {
         if size == 0 {
             return Vec::new();
         }
@@ -212,12 +206,10 @@ impl Levels<'_> {
                 let total = counts.iter().sum::<u32>() as usize;
                 let pays =
                     costs.node + costs.triangle * (CHILD_CHANCE * total as f32) < costs.triangle * cell.count as f32;
-                let vain = if pays { 0 } else { cell.vain + 1 };
-                (self.options.leaf.is_some() || vain <= PATIENCE).then_some(Split {
+                (self.options.leaf.is_some() || pays).then_some(Split {
                     cell: index,
                     counts,
                     total,
-                    vain,
                 })
             })
             .collect()

@@ -33,32 +33,29 @@ struct Expected {
     references: usize,
 }
 
-/// The octree of the splits that lower the expected cost of a ray, with at most so many references.
+/// The octree of those splits with which the expected cost of a ray is least and there are at most so many references.
 ///
-/// J. D. MacDonald and K. S. Booth, "Heuristics for ray tracing using space subdivision", The Visual Computer 6, 1990: a ray
-/// passes through a child with the probability that its surface has of the cell's. The published rule asks of each split
-/// whether it pays by itself; here the whole tree is known, and a split stays where it pays with the best of what is below
-/// it. Where that takes more references than there may be, each has a price, the least with which they fit.
-pub(super) fn pruned(cells: &Cells, costs: &Costs, budget: usize) -> Cells {
-    let levels = levels(&cells.nodes);
-    let at_price = |price: f32| decide(cells, &levels, costs, price);
-    let (mut kept, root) = at_price(0.0);
-    if root.references > budget {
-        let (mut low, mut high) = (LEAST_PRICE, LEAST_PRICE);
-        while at_price(high).1.references > budget {
-            (low, high) = (high, high * RAISE);
-        }
-        for _ in 0..NEARER {
-            let middle = (low * high).sqrt();
-            if at_price(middle).1.references > budget {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        kept = at_price(high).0;
+/// Each reference has a price, the least with which they fit, and a split stays where it pays with the best of what is below
+/// it. Cells whose references fit stay as they are.
+pub(super) fn pruned(cells: Cells, costs: &Costs, budget: usize) -> Cells {
+    if cells.references.len() <= budget {
+        return cells;
     }
-    relaid(cells, &kept)
+    let levels = levels(&cells.nodes);
+    let at_price = |price: f32| decide(&cells, &levels, costs, price);
+    let (mut low, mut high) = (LEAST_PRICE, LEAST_PRICE);
+    while at_price(high).1.references > budget {
+        (low, high) = (high, high * RAISE);
+    }
+    for _ in 0..NEARER {
+        let middle = (low * high).sqrt();
+        if at_price(middle).1.references > budget {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    relaid(&cells, &at_price(high).0)
 }
 
 /// The level of each cell; the root's is 0.
@@ -228,14 +225,14 @@ mod tests {
         let (kept, root) = decide(&cells, &levels(&cells.nodes), &COSTS, 0.0);
         assert_eq!((root.cost, root.references), (10.5, 40));
         assert_eq!(kept.iter().filter(|kept| **kept).count(), 9);
-        let same = pruned(&cells, &COSTS, 40);
+        let same = pruned(two_levels(), &COSTS, 40);
         assert_eq!((same.nodes, same.references), (cells.nodes, cells.references));
     }
 
     #[test]
     fn a_cell_that_is_put_together_has_each_triangle_once() {
         for budget in [39, 10] {
-            let alone = pruned(&two_levels(), &COSTS, budget);
+            let alone = pruned(two_levels(), &COSTS, budget);
             assert_eq!(alone.nodes, [Node { first: 0, count: 10 }], "all splits are alike");
             assert_eq!(alone.references, (0..10).collect::<Vec<u32>>());
         }
@@ -243,6 +240,6 @@ mod tests {
             node: 100.0,
             triangle: 1.0,
         };
-        assert_eq!(pruned(&two_levels(), &dear, 40).nodes.len(), 1);
+        assert_eq!(pruned(two_levels(), &dear, 39).nodes.len(), 1);
     }
 }
