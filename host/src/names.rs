@@ -14,4 +14,10 @@ impl Names {
     pub fn material(&self, index: usize) -> Option<&str> {
         self.materials.get(index)?.as_deref()
     }
+
+    /// The materials that have names: ids and names.
+    pub fn materials(&self) -> impl Iterator<Item = (usize, &str)> {
+        let named = self.materials.iter().enumerate();
+        named.filter_map(|(index, name)| Some((index, name.as_deref()?)))
+    }
 }

@@ -82,7 +82,7 @@ pub enum Command {
     Check(CheckArguments),
     /// List the parts that can be exchanged, and the combinations that are offered.
     Kernels(KernelsArguments),
-    /// Print the figures of a scene or mesh and of its octree, and the adapters at hand.
+    /// Print the figures of a scene or mesh and of its structure, and the adapters at hand.
     Info(InfoArguments),
     /// Say what is preferred in the configuration file and the environment; docs/configuration.md says more.
     Config(ConfigArguments),
@@ -110,7 +110,7 @@ pub struct ViewArguments {
     pub look: LookArguments,
     #[command(flatten)]
     pub engine: EngineArguments,
-    /// Size of the window's picture in pixels [default: as the scene says, else 1280x968].
+    /// Size of the window's picture in pixels, at most 32768 a side [default: as the scene says, else 1280x968].
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
     /// How long a picture may take while the camera or the light moves, milliseconds, 5 to 1000: resolution follows it, down to
@@ -140,14 +140,14 @@ pub struct RenderArguments {
     pub files: FileArguments,
     #[command(flatten)]
     pub frames: FrameArguments,
-    /// Size of the picture in pixels [default: as the scene says, else 1280x968].
+    /// Size of the picture in pixels, at most 32768 a side and 268435456 in all [default: as the scene says, else 1280x968].
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
     #[command(flatten)]
     pub look: LookArguments,
     #[command(flatten)]
     pub engine: EngineArguments,
-    /// Render so many times and print the times of the kernel: median, least and greatest.
+    /// Render so many times, 1 to 10000, and print the times of the kernel in milliseconds: median, least and greatest.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub repeat: u32,
     /// Say what was rendered as JSON, on standard output: files, rays, times, bounds of what was cut; with --show the figures of
@@ -214,7 +214,8 @@ pub struct CastArguments {
     pub structure: StructureArguments,
     #[command(flatten)]
     pub engine: EngineArguments,
-    /// Trace so many times more and print how fast, as JSON: by the GPU's clock, or by the wall's around the tracing alone.
+    /// Trace so many times more, 1 to 10000, and print how fast, as JSON: by the GPU's clock, or by the wall's around the
+    /// tracing alone.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub repeat: Option<u32>,
 }
@@ -234,7 +235,7 @@ pub struct ManArguments {
     /// The command whose page is printed; without one, that of the program.
     #[arg(conflicts_with = "output")]
     pub command: Option<String>,
-    /// Write the pages of all commands into this folder, as oktant-render.1 and so on.
+    /// Write the pages of all commands into this folder, which is there already, as oktant-render.1 and so on.
     #[arg(short, long, value_name = "FOLDER")]
     pub output: Option<PathBuf>,
 }
@@ -278,13 +279,14 @@ pub struct StructureArguments {
     /// What the build of a tree of boxes spends its time on.
     #[arg(long, value_parser = preset(), default_value = "balanced")]
     pub build: BuildPreset,
-    /// Limits of the octree, any of depth=0..13, leaf=N (cells with more references are split, and no others, whatever it
-    /// costs) and budget=N (references per triangle at most), separated by commas.
-    #[arg(long, value_name = "depth=D,leaf=N,budget=N", value_parser = octree, default_value = "")]
+    /// Limits of the octree, any of depth=0..13, leaf=N (cells with more than N references are split, and no others,
+    /// whatever it costs) and budget=N (references per triangle at most, 1 to 256), separated by commas
+    /// [default: depth=13,budget=16, split where that costs rays less].
+    #[arg(long, value_name = "depth=D,leaf=N,budget=N", value_parser = octree, default_value = "", hide_default_value = true)]
     pub octree: Octree,
     /// Limits of the grid, any of density=D (cells for each triangle, 0.01 to 100) and budget=N (references per triangle
-    /// at most), separated by commas.
-    #[arg(long, value_name = "density=D,budget=N", value_parser = grid, default_value = "")]
+    /// at most, 1 to 256), separated by commas [default: density=4,budget=32].
+    #[arg(long, value_name = "density=D,budget=N", value_parser = grid, default_value = "", hide_default_value = true)]
     pub grid: Grid,
     /// What the work of rays costs on this device, as `oktant tune` measured it [default: what is the best on others].
     #[arg(long, value_name = "PROFILE.toml")]
@@ -408,5 +410,22 @@ mod tests {
     #[test]
     fn the_definition_is_sound() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn what_a_command_takes_comes_before_what_all_do() {
+        let mut program = Arguments::command();
+        program.build();
+        for command in program.get_subcommands_mut() {
+            let help = command.render_long_help().to_string();
+            let Some(common) = help.find("--verbose") else {
+                assert_eq!(command.get_name(), "help");
+                continue;
+            };
+            for own in help[common..].match_indices("      --") {
+                let rest = &help[common + own.0..];
+                assert!(rest.starts_with("      --help"), "{}: {rest}", command.get_name());
+            }
+        }
     }
 }

@@ -8,6 +8,9 @@ use clap_mangen::Man;
 use oktant::output::TextFile;
 use std::io;
 
+/// What stands at the foot of every page.
+const PROGRAM: &str = concat!("oktant ", env!("CARGO_PKG_VERSION"));
+
 /// A manual page.
 struct Page {
     /// As `man` knows it: `oktant-render` is of `oktant render`.
@@ -61,7 +64,7 @@ fn pages() -> Result<Vec<Page>, Failure> {
 impl Page {
     fn new(command: &clap::Command) -> io::Result<Self> {
         let mut text = Vec::new();
-        Man::new(command.clone()).render(&mut text)?;
+        Man::new(command.clone()).source(PROGRAM).render(&mut text)?;
         let name = command.get_display_name().unwrap_or_else(|| command.get_name());
         Ok(Page {
             name: name.into(),
@@ -89,6 +92,8 @@ mod tests {
                 panic!("{} has no page", command.get_name());
             };
             assert!(page.text.starts_with(".ie"), "it is roff: {}", &page.text[..40]);
+            let title = page.text.lines().find(|line| line.starts_with(".TH"));
+            assert!(title.is_some_and(|title| title.contains(PROGRAM)), "{title:?}");
             for long in command.get_arguments().filter_map(clap::Arg::get_long) {
                 let option = format!("\\-\\-{}", long.replace('-', "\\-"));
                 assert!(page.text.contains(&option), "{option} of {}", command.get_name());

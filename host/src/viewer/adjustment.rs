@@ -4,6 +4,7 @@
 mod kernel;
 mod light;
 mod material;
+mod named;
 mod picture;
 mod surroundings;
 mod value;
@@ -11,6 +12,7 @@ mod value;
 pub use kernel::{KernelAdjustment, box_tests, triangle_tests};
 pub use light::{LightAdjustment, hue};
 pub use material::{MaterialAdjustment, SWITCHES};
+pub use named::NamedMaterial;
 pub use picture::{BLOCKS, PictureAdjustment, STEREO, stereo_name};
 pub use surroundings::SurroundingsAdjustment;
 

@@ -1,6 +1,6 @@
 //! The words of a script's lines. docs/viewer.md describes them.
 
-use super::adjustment::Adjustment;
+use super::adjustment::{Adjustment, NamedMaterial};
 use super::bearing::Bearing;
 use super::event::{Button, Key, Modifiers};
 use super::input::Input;
@@ -125,6 +125,17 @@ pub fn split(text: &str) -> (&str, &str) {
     (word, rest.trim())
 }
 
+/// The first name of a text, in quotes where it has spaces, and the rest of it.
+pub fn name(text: &str) -> Result<(&str, &str), String> {
+    let Some(quoted) = text.strip_prefix('"') else {
+        return Ok(split(text));
+    };
+    let (name, rest) = quoted
+        .split_once('"')
+        .ok_or("a quote is missing at the end of the last name")?;
+    Ok((name, rest.trim()))
+}
+
 /// The step that a line describes; else what is wrong with it and what to do.
 pub fn step(line: &str) -> Result<Step, String> {
     let (word, rest) = split(line);
@@ -153,7 +164,10 @@ pub fn step(line: &str) -> Result<Step, String> {
         "show" => Step::Show(shown(rest)?),
         "move" => Step::Move(place(word, rest)?),
         "pin" => Step::Pin(place(word, rest)?),
-        "set" => Step::Ask(Input::Adjust(Adjustment::parse(rest)?)),
+        "set" => match NamedMaterial::parse(rest)? {
+            Some(material) => Step::SetMaterial(material),
+            None => Step::Ask(Input::Adjust(Adjustment::parse(rest)?)),
+        },
         "add" => match split(rest) {
             ("light", "") => Step::Ask(Input::AddLight),
             ("mesh", files) => Step::Ask(Input::Add(paths("add mesh", files)?)),
@@ -350,16 +364,11 @@ fn paths(step: &str, rest: &str) -> Result<Vec<PathBuf>, String> {
     let mut paths = Vec::new();
     let mut rest = rest.trim_start();
     while !rest.is_empty() {
-        let (name, others) = match rest.strip_prefix('"') {
-            Some(quoted) => quoted
-                .split_once('"')
-                .ok_or("a quote is missing at the end of the last name")?,
-            None => split(rest),
-        };
-        if !name.is_empty() {
-            paths.push(PathBuf::from(name));
+        let (path, others) = name(rest)?;
+        if !path.is_empty() {
+            paths.push(PathBuf::from(path));
         }
-        rest = others.trim_start();
+        rest = others;
     }
     if paths.is_empty() {
         return Err(format!("give files, for example: {step} part.ply \"other part.stl\""));

@@ -1,6 +1,7 @@
 //! Playing a script in the window.
 
 use super::ViewerError;
+use super::adjustment::Adjustment;
 use super::application::Application;
 use super::event::Event;
 use super::input::Input;
@@ -148,6 +149,10 @@ impl Application {
             Step::Pin(at) => player.queue(player::pin(*at)),
             Step::Unpin => self.take_input(Input::See(See::Unpin), now),
             Step::Ask(input) => self.ask(input.clone(), now)?,
+            Step::SetMaterial(material) => {
+                let number = material.number(&self.names)?;
+                self.ask(Input::Adjust(Adjustment::Material(number, material.adjustment)), now)?;
+            }
             Step::LoseDevice => {
                 let GpuState::Open(gpu) = &self.gpu else {
                     return Err("no GPU is open; wait for it with: wait settled".into());

@@ -77,7 +77,7 @@ impl Script {
 
 #[cfg(test)]
 mod tests {
-    use super::super::adjustment::Adjustment;
+    use super::super::adjustment::{Adjustment, NamedMaterial};
     use super::super::bearing::Bearing;
     use super::super::event::{Button, Key, Modifiers};
     use super::super::input::Input;
@@ -132,6 +132,7 @@ mod tests {
             pin 320 240
             unpin
             set samples adaptive:16
+            set material "old wood" mirror 0.5
             add light
             remove light 1
             pick 3 4
@@ -207,6 +208,11 @@ mod tests {
                 Step::Pin([320.0, 240.0]),
                 Step::Unpin,
                 Step::Ask(Input::Adjust(Adjustment::parse("samples adaptive:16").unwrap())),
+                Step::SetMaterial(
+                    NamedMaterial::parse("material \"old wood\" mirror 0.5")
+                        .unwrap()
+                        .unwrap()
+                ),
                 Step::Ask(Input::AddLight),
                 Step::Ask(Input::RemoveLight(1)),
                 Step::Ask(Input::Pick([3.0, 4.0])),
@@ -263,6 +269,8 @@ mod tests {
             "set samples",
             "set samples 5",
             "set material 0 mirror 2",
+            "set material wood mirror 2",
+            "set material \"old wood mirror 0.5",
             "set light x color 1",
             "add",
             "add lights 2",

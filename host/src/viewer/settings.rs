@@ -4,6 +4,7 @@ use super::adjustment::{LightAdjustment, SWITCHES, hue, stereo_name};
 use super::application::Application;
 use super::caption::name;
 use super::session::Session;
+use crate::names::Names;
 use crate::sampling::SampleCount;
 use glam::Vec3;
 use oktant_shared::light::{DIRECTIONAL, Light, POINT};
@@ -18,6 +19,11 @@ impl Steps {
     fn set(&mut self, name: &str, value: impl ToString) {
         self.0.extend(["set ", name, " ", &value.to_string(), "\n"]);
     }
+
+    /// A line that no script plays, whatever a file has in its names.
+    fn remark(&mut self, text: &str) {
+        self.0.extend(["# ", &text.replace(char::is_control, " "), "\n"]);
+    }
 }
 
 impl Application {
@@ -25,12 +31,12 @@ impl Application {
     pub(super) fn settings(&self) -> String {
         let mut steps = Steps::default();
         steps.set("backend", if self.wants_gpu { "gpu" } else { "cpu" });
-        steps.0 + &settings(&self.session)
+        steps.0 + &settings(&self.session, &self.names)
     }
 }
 
 /// The settings of a session, a step a line; numbers are read as they were written.
-fn settings(session: &Session) -> String {
+fn settings(session: &Session, names: &Names) -> String {
     let mut steps = Steps::default();
     let parts = session.structure.parts;
     steps.set("traversal", parts.traversal);
@@ -42,6 +48,9 @@ fn settings(session: &Session) -> String {
         describe_light(&mut steps, session, index, light);
     }
     for (index, material) in session.staging.materials.iter().enumerate() {
+        if let Some(name) = names.material(index) {
+            steps.remark(&format!("material {index} is \"{name}\""));
+        }
         describe_material(&mut steps, index, material);
     }
     surroundings(&mut steps, session);
@@ -246,7 +255,17 @@ mod tests {
             play(&mut changed, &format!("set {text}"));
         }
         let mut again = session();
-        play(&mut again, &settings(&changed));
+        let names = Names {
+            materials: vec![None, Some("old\nquit\rwood".into())],
+            environment: None,
+        };
+        let text = settings(&changed, &names);
+        assert!(
+            text.contains("\n# material 1 is \"old quit wood\"\nset material 1 base "),
+            "{text}"
+        );
+        assert!(!text.contains("material 0 is"), "{text}");
+        play(&mut again, &text);
         assert_eq!(again.view, changed.view);
         assert_eq!(again.structure, changed.structure);
         assert_eq!(again.staging.materials, changed.staging.materials);
@@ -259,7 +278,7 @@ mod tests {
             assert!(same.position.distance(light.position) < 1e-5, "light {index}: {same:?}");
         }
         // Places of lights are turned into directions and back.
-        let (again, changed) = (settings(&again), settings(&changed));
+        let (again, changed) = (settings(&again, &names), settings(&changed, &names));
         let both = again.split([' ', ',', '\n']).zip(changed.split([' ', ',', '\n']));
         for (is, wanted) in both {
             let numbers = is.parse::<f32>().ok().zip(wanted.parse::<f32>().ok());
@@ -275,12 +294,12 @@ mod tests {
         session.apply(Input::Adjust(Adjustment::parse("stereo rows").expect("it is one")));
         session.apply(Input::Adjust(Adjustment::parse("eye-distance 1").expect("it is one")));
         session.apply(Input::Adjust(Adjustment::parse("convergence 1").expect("it is one")));
-        let mut text = settings(&session);
+        let mut text = settings(&session, &Names::default());
         // Without perspective there are no two eyes.
         for setting in ["stereo none", "projection orthographic", "ortho-height 2"] {
             session.apply(Input::Adjust(Adjustment::parse(setting).expect("it is one")));
         }
-        text += &settings(&session);
+        text += &settings(&session, &Names::default());
         let names = super::super::adjustment::PictureAdjustment::NAMES.map(|name| format!("set {name} "));
         let of_materials =
             super::super::adjustment::MaterialAdjustment::NAMES.map(|name| format!("set material 1 {name} "));

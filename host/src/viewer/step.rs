@@ -1,5 +1,6 @@
 //! The steps of a script.
 
+use super::adjustment::NamedMaterial;
 use super::event::{Button, Key, Modifiers};
 use super::input::Input;
 use super::written_camera::Form;
@@ -59,6 +60,8 @@ pub enum Step {
     Unpin,
     /// Ask for something without a detour over pointer and keyboard.
     Ask(Input),
+    /// Give a material a value that is known by its name.
+    SetMaterial(NamedMaterial),
     /// Print the figures.
     Print,
     /// Lose the GPU's device.

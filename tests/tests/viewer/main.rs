@@ -9,6 +9,7 @@ mod drag;
 mod failures;
 mod files;
 mod look;
+mod materials;
 mod oracle;
 mod panel;
 mod saves;

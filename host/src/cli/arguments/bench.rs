@@ -52,7 +52,7 @@ pub struct BenchArguments {
     /// Size of the pictures in pixels, a primary ray each.
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "1280x968")]
     pub size: Size,
-    /// Measurements of each time.
+    /// Measurements of each time, 1 to 10000.
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub repeat: u32,
     /// Write the tables into a Markdown file too.

@@ -15,7 +15,7 @@ pub struct ChartArguments {
     /// The folder for the charts, each as SVG, PNG and CSV; it is made where it is missing, files in it are replaced.
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
-    /// Rays that are aimed at edges and corners; of `range` a tenth for each point.
+    /// Rays that are aimed at edges and corners, 10 to 1000000000; of `range` a tenth for each point.
     #[arg(long, value_name = "N", default_value_t = 300_000, value_parser = clap::value_parser!(u32).range(10..=1_000_000_000))]
     pub rays: u32,
     /// Size of the pictures whose rays are traced, pixels.
@@ -24,10 +24,10 @@ pub struct ChartArguments {
     /// Size of the pictures of `image-error` and `depth-error`, pixels.
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "64x48")]
     pub pictures: Size,
-    /// Measurements of each time; the quickest counts.
+    /// Measurements of each time, 1 to 10000; the quickest counts.
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub repeat: u32,
-    /// Triangles of the largest mesh of `growth`.
+    /// Triangles of the largest mesh of `growth`, 1000 to 40000000.
     #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(1_000..=40_000_000))]
     pub largest: u32,
     /// Add other people's tracers to `accuracy`: what `oktant-bench-peers --json FILE` wrote, with the same meshes and --size.

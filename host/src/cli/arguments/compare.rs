@@ -18,25 +18,25 @@ pub struct CompareArguments {
     /// What that picture shows.
     #[arg(long, value_enum, default_value = "flip", requires = "output")]
     pub show: DifferenceKind,
-    /// A pixel differs where a channel's colour is off by more than so many of 255; with 0, where its light is not the same.
+    /// A pixel differs where a channel's colour is off by more than so many of 255, 0 to 255; with 0, where its light is not the same.
     #[arg(long, value_name = "N", default_value_t = 0.0, value_parser = step)]
     pub step: f32,
     /// Print the figures as JSON.
     #[arg(long)]
     pub json: bool,
-    /// Fail where the light's root mean square error is greater.
+    /// Fail where the light's root mean square error is greater, 0 or more.
     #[arg(long, value_name = "X", value_parser = limit)]
     pub max_rmse: Option<f64>,
-    /// Fail where the mean of FLIP is greater.
+    /// Fail where the mean of FLIP is greater, 0 to 1.
     #[arg(long, value_name = "X", value_parser = limit)]
     pub max_flip: Option<f64>,
-    /// Fail where more than a hundredth of the pixels have a FLIP that is greater.
+    /// Fail where more than a hundredth of the pixels have a FLIP that is greater, 0 to 1.
     #[arg(long, value_name = "X", value_parser = limit)]
     pub max_flip_99: Option<f64>,
     /// Fail where more pixels differ.
     #[arg(long, value_name = "PIXELS")]
     pub max_differing: Option<u64>,
-    /// Fail where the structural similarity is less.
+    /// Fail where the structural similarity is less, at most 1.
     #[arg(long, value_name = "X", value_parser = limit)]
     pub min_ssim: Option<f64>,
     /// Fail where the peak signal-to-noise ratio is less, decibels.

@@ -10,15 +10,15 @@ use std::path::{Path, PathBuf};
 /// Which frames are rendered, and what changes between them.
 #[derive(Clone, Debug, Default, Args)]
 pub struct FrameArguments {
-    /// Render so many frames along --path: a file each with -o NAME-####.png (# is the number, from 1) or .exr, one file of all
-    /// with -o NAME.gif or .apng. FIRST..LAST/N renders a part of N frames.
+    /// Render so many frames, 1 to 1000000, along --path: a file each with -o NAME-####.png (# is the number, from 1) or .exr,
+    /// one file of all with -o NAME.gif or .apng. FIRST..LAST/N renders a part of N frames.
     #[arg(long, value_name = "N|FIRST..LAST/N", value_parser = frames, conflicts_with = "reference")]
     pub frames: Option<FrameRange>,
     /// What changes from frame to frame: the camera turns once (turntable), or key frames from a file, which docs/output.md
     /// describes [default: turntable].
     #[arg(long, value_name = "turntable|FILE.toml", value_parser = path, requires = "frames")]
     pub path: Option<PathArgument>,
-    /// Frames that a GIF or APNG file shows in a second; of a GIF at most 50 [default: 25].
+    /// Frames that a GIF or APNG file shows in a second, 1 to 65535, of a GIF at most 50 [default: 25].
     #[arg(long, value_name = "N", requires = "frames")]
     pub fps: Option<NonZeroU16>,
     /// Render numbered frames anew that are there already.

@@ -24,11 +24,11 @@ pub struct LookArguments {
     /// [default: as the scene says, else 1].
     #[arg(long, value_enum)]
     pub samples: Option<SampleCount>,
-    /// How far a pixel of few samples may be off, as a part of the output's range, with --samples adaptive
+    /// How far a pixel of few samples may be off, as a part of the output's range, 0.0001 to 1, with --samples adaptive
     /// [default: as the scene says, else 0.01].
     #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = tolerance)]
     pub error: Option<f32>,
-    /// Edge of blocks of pixels of which only the corners are traced where these agree, with --samples adaptive
+    /// Edge, in pixels, of blocks of which only the corners are traced where these agree, with --samples adaptive
     /// [default: as the scene says, else 1: all pixels are traced].
     #[arg(long, value_enum)]
     pub block: Option<BlockArgument>,
@@ -44,8 +44,8 @@ pub struct LookArguments {
     /// How many times a ray may be reflected or refracted, 0 to 16 [default: as the scene says, else 16].
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_TREE_DEPTH)))]
     pub depth: Option<u32>,
-    /// Rays are left out as long as that can change no channel of the output by more than so many steps of 8 bits; 0: none is
-    /// [default: as the scene says, else 0.9].
+    /// Rays are left out as long as that can change no channel of the output by more than so many steps of 8 bits, up to 255;
+    /// 0: none is [default: as the scene says, else 0.5].
     #[arg(long, value_name = "STEPS", allow_negative_numbers = true, value_parser = cutoff)]
     pub cutoff: Option<f32>,
     /// Where the camera stands, by a file with a table [camera] as scene files have it, which the viewer copies with
@@ -59,8 +59,8 @@ pub struct LookArguments {
     /// How high the camera stands, degrees above the horizon, -90 to 90 [default: as the scene says, else 15].
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = elevation)]
     pub elevation: Option<f32>,
-    /// How far the camera is from what it looks at, in radii of the mesh's bounding sphere; of a scene that has a
-    /// camera, in halves of the height that it sees [default: as the scene says, else 2.8].
+    /// How far the camera is from what it looks at, in radii of the mesh's bounding sphere, 0.001 to 100000; of a scene that
+    /// has a camera, in halves of the height that it sees [default: as the scene says, else 2.8].
     #[arg(long, value_name = "RADII", allow_negative_numbers = true, value_parser = distance)]
     pub distance: Option<f32>,
     /// Vertical field of view, degrees, 1 to 170 [default: as the scene says, else 40].
@@ -93,13 +93,13 @@ pub struct LookArguments {
     /// Pictures for two eyes [default: as the scene says, else none].
     #[arg(long, value_enum)]
     pub stereo: Option<StereoArgument>,
-    /// Distance between the eyes, scene units [default: as the scene says, else a thirtieth of --convergence].
+    /// Distance between the eyes, scene units, above 0 [default: as the scene says, else a thirtieth of --convergence].
     #[arg(long, value_name = "UNITS", allow_negative_numbers = true, value_parser = length)]
     pub eye_distance: Option<f32>,
-    /// Depth that appears on the screen itself, scene units [default: as the scene says, else what the camera looks at].
+    /// Depth that appears on the screen itself, scene units, above 0 [default: as the scene says, else what the camera looks at].
     #[arg(long, value_name = "UNITS", allow_negative_numbers = true, value_parser = length)]
     pub convergence: Option<f32>,
-    /// Brightness in stops: each doubles the light; not for EXR files [default: as the scene says, else 0].
+    /// Brightness in stops, -30 to 30: each doubles the light; not for EXR files [default: as the scene says, else 0].
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = exposure)]
     pub exposure: Option<f32>,
     /// Curve that makes bright light fit the screen; not for EXR files [default: as the scene says, else none].
@@ -300,4 +300,52 @@ impl ValueEnum for BlockArgument {
 pub enum UpArgument {
     Y,
     Z,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+    use clap::Parser;
+
+    #[derive(Parser)]
+    struct Only {
+        #[command(flatten)]
+        _look: LookArguments,
+    }
+
+    #[test]
+    fn what_the_help_says_of_defaults_is_so() {
+        let view = View::default();
+        let (camera, light) = (view.camera, view.light);
+        let command = Only::command();
+        for (name, default) in [
+            ("error", view.tolerance),
+            ("block", view.block as f32),
+            ("depth", view.depth as f32),
+            ("cutoff", view.cutoff),
+            ("azimuth", camera.azimuth),
+            ("elevation", camera.elevation),
+            ("distance", camera.distance),
+            ("fov", view.field_of_view),
+            ("light-azimuth", light.azimuth),
+            ("light-elevation", light.elevation),
+            ("light-distance", light.distance),
+            ("exposure", view.tone.exposure),
+        ] {
+            let argument = command
+                .get_arguments()
+                .find(|argument| argument.get_long() == Some(name));
+            let help = argument
+                .and_then(|argument| argument.get_help())
+                .expect(name)
+                .to_string();
+            let (_, said) = help.split_once("as the scene says, else ").expect(name);
+            let said = said
+                .split([']', ':'])
+                .next()
+                .and_then(|number| number.parse::<f32>().ok());
+            assert_eq!(said, Some(default), "--{name}: {help}");
+        }
+    }
 }

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct StabilityArguments {
-    /// Rays of each row, where there are not fewer.
+    /// Rays of each row, where there are not fewer, 1 to 100000000.
     #[arg(long, value_name = "N", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     pub rays: u32,
     /// Only these rows, separated by commas; docs/stability.md describes them.

@@ -3,14 +3,17 @@
 use clap::{ArgAction, Args};
 use tracing_subscriber::EnvFilter;
 
+/// Where the list of options has what all commands take: behind their own, before `--help`.
+const LAST: usize = 900;
+
 /// How much is told on standard error.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct Verbosity {
     /// Tell more: how long reading and building take, and what renders; -vv also what the libraries say, -vvv everything.
-    #[arg(short, long, global = true, action = ArgAction::Count)]
+    #[arg(short, long, global = true, action = ArgAction::Count, display_order = LAST)]
     pub verbose: u8,
     /// Leave warnings out, and tell of errors only; what a command says of its own work stays.
-    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    #[arg(short, long, global = true, conflicts_with = "verbose", display_order = LAST)]
     pub quiet: bool,
 }
 
