@@ -58,14 +58,13 @@ fn work(subject: &Subject, scene: &Scene) -> [f64; 2] {
     sum
 }
 
-/// Nanoseconds of a ray of each set, of each the quickest of so many times.
-fn times(subject: &Subject, scene: &Arc<Scene>, device: &Device, repeats: u32) -> Vec<f64> {
+/// Nanoseconds of a ray of each set, of each the quickest of so many times, of one in `step` rays.
+fn times(subject: &Subject, scene: &Arc<Scene>, device: &Device, step: usize, repeats: u32) -> Vec<f64> {
     let tracer = device.with(scene).unwrap();
     let of_set = |set: &oktant::bench::JudgedSet| {
-        let times = tracer
-            .time_cast(scene.parts, set.kind.query(), &set.rays, repeats)
-            .unwrap();
-        times.into_iter().fold(f64::INFINITY, f64::min) * 1e6 / set.rays.len() as f64
+        let rays: Vec<_> = set.rays.iter().step_by(step).copied().collect();
+        let times = tracer.time_cast(scene.parts, set.kind.query(), &rays, repeats).unwrap();
+        times.into_iter().fold(f64::INFINITY, f64::min) * 1e6 / rays.len() as f64
     };
     subject.sets.iter().map(of_set).collect()
 }
@@ -163,6 +162,9 @@ fn the_model_comes_near_the_best_on_large_meshes() {
     subjects.iter().filter(|subject| is_wanted(subject)).for_each(check);
 }
 
+/// Limits with which a few rays, one in so many, take so many times as long as by the model are not measured.
+const FEW: usize = 64;
+const HOPELESS: f64 = 10.0;
 /// How many of the quickest limits are measured again.
 const AGAIN: usize = 6;
 /// How often.
@@ -193,20 +195,24 @@ fn measure(device: &Device, size: UVec2) {
     ];
     for subject in subjects.iter().filter(|subject| is_wanted(subject)) {
         let mean = |times: &[f64]| times.iter().sum::<f64>() / times.len() as f64;
-        let mut all: Vec<(f64, OctreeOptions)> = limits()
-            .map(|options| (mean(&times(subject, &scene(subject, options), device, 1)), options))
-            .collect();
-        all.sort_by(|a, b| a.0.total_cmp(&b.0));
         let models = [Costs::OCTREE, tuned].map(|costs| OctreeOptions {
             costs,
             ..OctreeOptions::default()
         });
+        let few = |scene: &Arc<Scene>| mean(&times(subject, scene, device, FEW, 1));
+        let most = HOPELESS * few(&scene(subject, models[0]));
+        let mut all: Vec<(f64, OctreeOptions)> = limits()
+            .map(|options| (scene(subject, options), options))
+            .filter(|(scene, _)| few(scene) < most)
+            .map(|(scene, options)| (mean(&times(subject, &scene, device, 1, 1)), options))
+            .collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
         let again: Vec<OctreeOptions> = models.into_iter().chain(all[..AGAIN].iter().map(|one| one.1)).collect();
         let scenes: Vec<Arc<Scene>> = again.iter().map(|options| scene(subject, *options)).collect();
         let mut least = vec![vec![f64::INFINITY; subject.sets.len()]; scenes.len()];
         for _ in 0..ROUNDS {
             for (least, scene) in least.iter_mut().zip(&scenes) {
-                for (least, time) in least.iter_mut().zip(times(subject, scene, device, 10)) {
+                for (least, time) in least.iter_mut().zip(times(subject, scene, device, 1, 10)) {
                     *least = least.min(time);
                 }
             }

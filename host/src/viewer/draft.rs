@@ -2,14 +2,17 @@
 
 use super::pace::Pace;
 use crate::sampling::Samples;
+use crate::scene::Scene;
 use crate::stereo::StereoMode;
 use crate::view::View;
+use oktant_shared::frame::Frame;
+use oktant_shared::light::Light;
 use std::time::Duration;
 
 /// What part of a draft's time may go into more samples than one: so many times as often are pictures shown then.
 const SPARE: u32 = 4;
 /// A pixel of the coarsest draft covers a square with this edge, pixels of the window.
-const COARSEST: u32 = 8;
+const COARSEST: u32 = 4;
 /// Reflections and refractions that a draft follows where the coarsest one would not be there in time with all of them:
 /// a ray comes through a pane of glass and sees what is behind it.
 const SHALLOW: u32 = 2;
@@ -19,7 +22,7 @@ const SHALLOW: u32 = 2;
 pub struct Draft {
     /// Edge of the square of the window's pixels that one of its pixels covers.
     pub edge: u32,
-    /// Whether rays are followed less far.
+    /// Whether rays are followed less far, and the first light asked in its middle alone.
     pub is_shallow: bool,
     /// Samples of each of its pixels.
     pub samples: Samples,
@@ -38,8 +41,18 @@ impl Draft {
         self.edge > 1 || self.is_shallow
     }
 
-    /// The view, simplified.
-    pub fn simplified(&self, view: &View) -> View {
+    /// The frame of a picture of that size, simplified.
+    pub fn frame(&self, view: &View, scene: &Scene, size: [u32; 2]) -> Frame {
+        let [width, height] = self.size(size);
+        let mut frame = self.simplified(view).frame(scene, width, height);
+        if self.is_shallow {
+            // Softer shadows take most rays of a scene that has them.
+            frame.light.samples_per_side = 1;
+        }
+        frame
+    }
+
+    fn simplified(&self, view: &View) -> View {
         let mut view = View {
             samples: self.samples,
             adaptive: false,
@@ -86,8 +99,8 @@ impl Paces {
     }
 
     /// The best draft that is there within a time: as fine as it can be, then with as many samples as are wanted, or as are
-    /// there in a quarter of the time.
-    pub fn draft(&self, view: &View, size: [u32; 2], target: Duration) -> Draft {
+    /// there in a quarter of the time. The light is the scene's first.
+    pub fn draft(&self, view: &View, light: &Light, size: [u32; 2], target: Duration) -> Draft {
         let rays_per_sample = view.stereo.map_or(1, |stereo| stereo.mode.rays_per_sample());
         let time = |pace: &Pace, draft: &Draft| {
             let [width, height] = draft.size(size).map(u64::from);
@@ -103,7 +116,7 @@ impl Paces {
         };
         let coarsest = Draft {
             edge: COARSEST,
-            is_shallow: view.depth > SHALLOW,
+            is_shallow: view.depth > SHALLOW || light.sample_count() > 1,
             ..Draft::FINE
         };
         let smooth = || {
@@ -121,19 +134,34 @@ impl Paces {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::Mesh;
+    use crate::progress::silent;
     use crate::stereo::Stereo;
+    use crate::structure::StructureOptions;
+    use glam::Vec3;
+    use oktant_shared::light;
 
     const SIZE: [u32; 2] = [1280, 968];
     const FLUID: Duration = Duration::from_millis(60);
+    const POINT: Light = Light {
+        position: Vec3::Y,
+        kind: light::POINT,
+        color: Vec3::ONE,
+        falloff_radius: 0.0,
+        edge_u: Vec3::ZERO,
+        samples_per_side: 1,
+        edge_v: Vec3::ZERO,
+        range: 0.0,
+    };
 
     #[test]
     fn slower_is_coarser_and_at_last_shallow() {
         let view = View::default();
         let mut last = Draft::FINE;
-        for nanoseconds in [1, 40, 100, 200, 400, 1000, 3000] {
+        for nanoseconds in [1, 40, 100, 200, 400, 700, 750] {
             let mut paces = Paces::guessed(true);
             paces.measured(false, 1_000_000, f64::from(nanoseconds));
-            let draft = paces.draft(&view, SIZE, FLUID);
+            let draft = paces.draft(&view, &POINT, SIZE, FLUID);
             assert!(draft.edge >= last.edge && !draft.is_shallow, "{nanoseconds} ns a ray");
             let [width, height] = draft.size(SIZE);
             assert!(width * height * nanoseconds <= 60_000_000, "{nanoseconds} ns a ray");
@@ -142,15 +170,46 @@ mod tests {
         assert_eq!(last.edge, COARSEST);
         let mut paces = Paces::guessed(true);
         paces.measured(false, 1_000_000, 9000.0);
-        assert!(paces.draft(&view, SIZE, FLUID).is_shallow);
-        paces.measured(true, 1_000_000, 800.0);
-        let draft = paces.draft(&view, SIZE, FLUID);
+        assert!(paces.draft(&view, &POINT, SIZE, FLUID).is_shallow);
+        paces.measured(true, 1_000_000, 400.0);
+        let draft = paces.draft(&view, &POINT, SIZE, FLUID);
         assert!(draft.is_shallow && draft.edge < COARSEST, "{draft:?}");
         assert_eq!(draft.simplified(&view).depth, SHALLOW);
         let level = View { depth: 1, ..view };
-        let draft = paces.draft(&level, SIZE, FLUID);
+        let draft = paces.draft(&level, &POINT, SIZE, FLUID);
         assert!(!draft.is_shallow, "there is nothing to leave out");
         assert_eq!(draft.simplified(&level).depth, 1);
+    }
+
+    #[test]
+    fn light_of_many_samples_is_left_out_before_the_time_is_exceeded() {
+        let area = Light {
+            kind: light::AREA,
+            edge_u: Vec3::X,
+            edge_v: Vec3::Z,
+            samples_per_side: 3,
+            ..POINT
+        };
+        let view = View {
+            depth: 0,
+            ..View::default()
+        };
+        let mut paces = Paces::guessed(false);
+        paces.measured(false, 1_000_000, 3000.0);
+        paces.measured(true, 1_000_000, 500.0);
+        assert!(!paces.draft(&view, &POINT, SIZE, FLUID).is_shallow);
+        let draft = paces.draft(&view, &area, SIZE, FLUID);
+        assert!(draft.is_shallow && draft.edge < COARSEST, "{draft:?}");
+        let mesh = Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            triangles: vec![[0, 1, 2]],
+            ..Mesh::default()
+        };
+        let mut scene = Scene::new(&mesh, &StructureOptions::default(), &silent).unwrap();
+        scene.light = area;
+        for (draft, samples) in [(Draft::FINE, 9), (draft, 1)] {
+            assert_eq!(draft.frame(&view, &scene, SIZE).light.sample_count(), samples);
+        }
     }
 
     #[test]
@@ -163,7 +222,7 @@ mod tests {
         // A sample at all pixels takes 12.4 ms.
         paces.measured(false, 1_000_000, 10.0);
         let draft = |milliseconds| {
-            let draft = paces.draft(&view, SIZE, Duration::from_millis(milliseconds));
+            let draft = paces.draft(&view, &POINT, SIZE, Duration::from_millis(milliseconds));
             (draft.edge, draft.samples)
         };
         assert_eq!(draft(1), (4, Samples::One));
@@ -173,7 +232,7 @@ mod tests {
         assert_eq!(draft(200), (1, Samples::Four));
         assert_eq!(draft(800), (1, Samples::Sixteen));
         for (milliseconds, is_coarse) in [(4, true), (13, false), (200, false)] {
-            let draft = paces.draft(&view, SIZE, Duration::from_millis(milliseconds));
+            let draft = paces.draft(&view, &POINT, SIZE, Duration::from_millis(milliseconds));
             assert_eq!(
                 draft.is_coarse(),
                 is_coarse,
@@ -184,7 +243,11 @@ mod tests {
         for is_shallow in [false, true] {
             paces.measured(is_shallow, 1_000_000, 1e6);
         }
-        assert_eq!(paces.draft(&view, SIZE, FLUID).edge, COARSEST, "never below the floor");
+        assert_eq!(
+            paces.draft(&view, &POINT, SIZE, FLUID).edge,
+            COARSEST,
+            "never below the floor"
+        );
     }
 
     #[test]
@@ -197,7 +260,7 @@ mod tests {
                 stereo: Some(Stereo::new(mode)),
                 ..View::default()
             };
-            paces.draft(&view, SIZE, FLUID).edge
+            paces.draft(&view, &POINT, SIZE, FLUID).edge
         };
         assert_eq!([StereoMode::Rows, StereoMode::SideBySide].map(edge), [1, 1]);
         assert_eq!([StereoMode::Sequential, StereoMode::Anaglyph].map(edge), [2, 2]);

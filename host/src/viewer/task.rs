@@ -100,10 +100,7 @@ impl Plan {
         let Purpose::Show { number, effort } = task.purpose else {
             return None;
         };
-        let frame = |draft: &Draft| {
-            let [width, height] = draft.size(task.size);
-            draft.simplified(&task.view).frame(&task.scene, width, height)
-        };
+        let frame = |draft: &Draft| draft.frame(&task.view, &task.scene, task.size);
         let [width, height] = task.size;
         let wanted = task.view.frame(&task.scene, width, height);
         let frames = match effort {

@@ -39,7 +39,7 @@ impl Application {
                 let full = self.session.size;
                 let view = self.session.view;
                 let draft = match quality {
-                    Quality::Draft => self.paces[usize::from(on_gpu)].draft(&view, full, self.target),
+                    Quality::Draft => self.paces[usize::from(on_gpu)].draft(&view, &scene.light, full, self.target),
                     Quality::Final => Draft::FINE,
                 };
                 let effort = match quality {

@@ -176,8 +176,7 @@ impl Worker {
             edge: COUNTED,
             ..Draft::FINE
         };
-        let [width, height] = draft.size(task.size);
-        let frame = draft.simplified(&task.view).frame(&task.scene, width, height);
+        let frame = draft.frame(&task.view, &task.scene, task.size);
         let mut picture = Picture::unwritten(frame.size().x, frame.size().y);
         let cpu = Cpu::new(task.scene.clone());
         if cpu.render_pass(&frame, &mut picture, &self.cancel, &silent) {

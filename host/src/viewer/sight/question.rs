@@ -129,8 +129,7 @@ impl Question {
         let frame = view.frame(scene, size[0], size[1]);
         match ask {
             Ask::Pixels(aspect) => {
-                let [width, height] = DRAFT.size(*size);
-                let draft = DRAFT.simplified(view).frame(scene, width, height);
+                let draft = DRAFT.frame(view, scene, *size);
                 for frame in [draft, frame] {
                     let insight = Insight::new(*aspect, scene, &frame, cancel, &silent);
                     let Some(insight) = insight.map_err(|error| error.to_string())? else {
