@@ -11,6 +11,7 @@ mod files;
 mod look;
 mod oracle;
 mod panel;
+mod random;
 mod saves;
 mod several;
 mod sight;
