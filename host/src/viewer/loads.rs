@@ -7,6 +7,7 @@ use super::state::Loading;
 use crate::scene::Staging;
 use crate::source::Source;
 use crate::standpoint::Origin;
+use crate::structure::StructureOptions;
 use std::path::PathBuf;
 use std::thread;
 use std::time::Instant;
@@ -67,8 +68,8 @@ impl Application {
             }
             Err(refusal) if self.scene.is_none() => self.fail(refusal.error),
             Err(refusal) => {
-                // What is shown still has its old structure.
-                self.session.structure = self.built;
+                let (wanted, tried) = (self.session.structure, self.building);
+                self.session.structure = still_wanted(wanted, tried, self.built, loading.is_reload);
                 self.tell(refusal.error.to_string(), true);
                 if let Some(message) = &mut self.message {
                     message.is_about_load = true;
@@ -78,7 +79,12 @@ impl Application {
                 }
             }
         }
-        let next = self.loads.next(&self.source);
+        let next = if self.session.structure == self.built {
+            self.loads.next(&self.source)
+        } else {
+            // It was chosen meanwhile.
+            self.loads.reload(&self.source)
+        };
         self.begin_load(next);
     }
 
@@ -108,6 +114,7 @@ impl Application {
         // Giving a large one back takes as long as dozens of frames.
         thread::spawn(move || drop(old));
         self.built = self.building;
+        self.session.seeing.trace(self.built.parts.traversal);
         self.inventory = None;
         self.focus = arrival.focus;
         self.sight.shift = arrival.shift;
@@ -139,5 +146,36 @@ impl Application {
             let resized = self.resized([granted.width, granted.height]);
             self.take_event(&resized, now);
         }
+    }
+}
+
+/// The structure that is wanted after a load was refused. What was tried for what is shown cannot be had, which keeps the one
+/// that was built; what was chosen otherwise stays chosen.
+fn still_wanted(
+    wanted: StructureOptions,
+    tried: StructureOptions,
+    built: StructureOptions,
+    is_reload: bool,
+) -> StructureOptions {
+    if is_reload && wanted == tried { built } else { wanted }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use oktant_shared::parts::TraversalKind;
+
+    #[test]
+    fn only_a_structure_that_was_tried_in_vain_is_given_up() {
+        let [octants, grid, bvh2] =
+            [TraversalKind::Octants, TraversalKind::Grid, TraversalKind::Bvh2].map(StructureOptions::of);
+        assert_eq!(still_wanted(grid, grid, octants, true), octants);
+        assert_eq!(still_wanted(bvh2, grid, octants, true), bvh2, "chosen meanwhile");
+        assert_eq!(
+            still_wanted(grid, grid, octants, false),
+            grid,
+            "it was the file's fault"
+        );
+        assert_eq!(still_wanted(octants, octants, octants, false), octants);
     }
 }

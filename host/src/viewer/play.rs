@@ -140,7 +140,7 @@ impl Application {
                 if let Some(aspect) = aspect.filter(|aspect| !self.session.seeing.is_told(*aspect)) {
                     return Err(format!(
                         "{aspect} means nothing with --traversal {}; show something else",
-                        self.options.structure.parts.traversal
+                        self.built.parts.traversal
                     ));
                 }
                 self.take_input(Input::See(See::Aspect(*aspect)), now);

@@ -76,6 +76,12 @@ impl Seeing {
         }
     }
 
+    /// Rays are traced in another way: what means nothing with that is no longer shown.
+    pub fn trace(&mut self, traversal: TraversalKind) {
+        self.traversal = traversal;
+        self.aspect = self.aspect.filter(|aspect| self.is_told(*aspect));
+    }
+
     /// Takes a wish, of somebody who sees that view in a window of that size.
     pub fn apply(&mut self, wish: See, view: &View, size: [u32; 2]) {
         match wish {
@@ -143,6 +149,21 @@ mod tests {
             apply(&mut seeing, See::Aspect(Some(Aspect::LeafDepth)));
             assert_eq!(seeing.aspect.is_some(), traversal == TraversalKind::Octants);
         }
+    }
+
+    #[test]
+    fn what_means_nothing_with_another_traversal_is_not_shown() {
+        let mut seeing = Seeing::new(TraversalKind::Octants);
+        apply(&mut seeing, See::Aspect(Some(Aspect::LeafDepth)));
+        seeing.trace(TraversalKind::Octree);
+        assert_eq!(seeing.aspect, Some(Aspect::LeafDepth));
+        seeing.trace(TraversalKind::Brute);
+        assert_eq!(seeing.aspect, None);
+        apply(&mut seeing, See::Aspect(Some(Aspect::LeafDepth)));
+        assert_eq!(seeing.aspect, None, "nor does anybody get it");
+        seeing.trace(TraversalKind::Octants);
+        apply(&mut seeing, See::Aspect(Some(Aspect::LeafDepth)));
+        assert_eq!(seeing.aspect, Some(Aspect::LeafDepth));
     }
 
     #[test]

@@ -104,7 +104,7 @@ impl Application {
                     pixel: pin.pixel,
                     source,
                     shift,
-                    structure: self.options.structure,
+                    structure: self.built,
                 };
                 Question::new(scene, &pin.view, pin.size, ask)
             }),

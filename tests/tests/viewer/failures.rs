@@ -208,3 +208,37 @@ fn broken_drivers_are_told_of() {
         assert!(!session.files().contains(&"none.png".into()));
     }
 }
+
+#[test]
+#[ignore = "needs a display"]
+fn what_is_chosen_while_a_file_is_opened_is_built() {
+    let session = Session::new();
+    session.write("corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let script = "wait settled
+        show leaf-depth
+        set traversal bvh2
+        open missing.ply
+        wait settled
+        pin 320 240
+        wait settled
+        open corner.obj
+        set traversal brute
+        wait settled
+        pin 320 240
+        wait settled
+        print";
+    let report = session
+        .start(&["balls", "--backend", "cpu", "--size", SIZE], script)
+        .finish();
+    let commands: Vec<&str> = report
+        .standard_error
+        .lines()
+        .filter(|line| line.contains("--ray"))
+        .collect();
+    let [after_none, after_another] = commands[..] else {
+        panic!("{report}");
+    };
+    assert!(after_none.starts_with("oktant trace balls ") && after_none.ends_with(" --traversal bvh2"));
+    assert!(after_another.starts_with("oktant trace corner.obj ") && after_another.ends_with(" --traversal brute"));
+    assert_eq!(report.value("show"), "picture", "there are no leaves");
+}

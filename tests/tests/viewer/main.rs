@@ -12,6 +12,7 @@ mod look;
 mod materials;
 mod oracle;
 mod panel;
+mod random;
 mod saves;
 mod several;
 mod sight;

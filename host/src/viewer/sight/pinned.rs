@@ -84,7 +84,7 @@ impl Pinned {
     }
 
     /// With the command that traces the ray again, in a scene of that source whose mesh was moved by `shift`; `oktant trace`
-    /// takes no planes.
+    /// takes no planes, and one file.
     pub fn replayed(
         self,
         scene: &Scene,
@@ -93,7 +93,8 @@ impl Pinned {
         shift: DVec3,
         structure: &StructureOptions,
     ) -> Self {
-        let command = (scene.plane_count == 0).then(|| {
+        let is_taken = scene.plane_count == 0 && !matches!(source, Source::Several(_));
+        let command = is_taken.then(|| {
             let Ray { origin, direction, .. } = ray(&middles(frame), self.pixel);
             let origin = origin.as_dvec3() + shift;
             // The shortest decimals that are the same f32 again, where nothing was moved.
@@ -163,7 +164,7 @@ impl Pinned {
         add(
             self.command
                 .clone()
-                .unwrap_or_else(|| "oktant trace takes no scenes with planes".into()),
+                .unwrap_or_else(|| "oktant trace takes one file, without planes".into()),
             Tone::Plain,
         );
         panel
@@ -269,6 +270,22 @@ mod tests {
             }
             assert!((1..4).contains(&hits), "{traversal}: {hits}");
         }
+    }
+
+    #[test]
+    fn no_command_traces_several_meshes() {
+        let structure = StructureOptions::default();
+        let scene = Scene::new(&balls::balls(), &structure, &silent).unwrap();
+        let frame = View::default().frame(&scene, 64, 48);
+        let replayed = |source| {
+            let pinned = Pinned::new(&scene, &frame, [32, 24]);
+            pinned.replayed(&scene, &frame, &source, DVec3::ZERO, &structure)
+        };
+        let several = replayed(Source::Several(vec![MeshSource::Balls; 2]));
+        assert_eq!(several.command, None);
+        let last = several.lines(80).pop().unwrap().text;
+        assert_eq!(last, "oktant trace takes one file, without planes");
+        assert!(replayed(Source::Mesh(MeshSource::Balls)).command.is_some());
     }
 
     #[test]

@@ -18,7 +18,7 @@ use std::io::Read;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, LazyLock};
-use std::thread;
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
@@ -96,13 +96,7 @@ impl Session {
 
     /// Starts the program.
     pub fn start_with(&self, arguments: &[&str]) -> Running {
-        let child = self
-            .command(arguments)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("the program starts");
-        Running { child }
+        start(&mut self.command(arguments))
     }
 
     /// The picture in a file that is about to appear; files appear complete.
@@ -120,6 +114,33 @@ impl Session {
 /// A program that runs.
 pub struct Running {
     child: Child,
+    output: Option<JoinHandle<String>>,
+    error: Option<JoinHandle<String>>,
+}
+
+/// Starts a command.
+pub fn start(command: &mut Command) -> Running {
+    let mut child = command
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let output = listen(child.stdout.take().expect("it is a pipe"));
+    let error = listen(child.stderr.take().expect("it is a pipe"));
+    Running {
+        child,
+        output: Some(output),
+        error: Some(error),
+    }
+}
+
+/// Reads what is printed while it is: whoever fills a pipe waits.
+fn listen(mut pipe: impl Read + Send + 'static) -> JoinHandle<String> {
+    thread::spawn(move || {
+        let mut text = String::new();
+        pipe.read_to_string(&mut text).expect("the program prints text");
+        text
+    })
 }
 
 impl Running {
@@ -140,6 +161,20 @@ impl Running {
         self.wait_within(PATIENCE)
     }
 
+    /// Whether it has.
+    pub fn has_ended(&mut self) -> bool {
+        self.child.try_wait().expect("a child can be waited for").is_some()
+    }
+
+    /// Memory that is resident, bytes, as Linux tells it.
+    pub fn resident_memory(&self) -> u64 {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id()));
+        let status = status.expect("the process is there");
+        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+        let kibibytes = line.map(|line| line.trim().trim_end_matches("kB").trim().parse::<u64>());
+        kibibytes.expect("Linux tells it").expect("a number") << 10
+    }
+
     fn wait_within(&mut self, patience: Duration) -> Report {
         let start = Instant::now();
         let status = loop {
@@ -149,18 +184,14 @@ impl Running {
             assert!(start.elapsed() < patience, "the window does not close");
             thread::sleep(Duration::from_millis(5));
         };
-        // Little enough to fit into a pipe.
-        let read = |pipe: Option<&mut dyn Read>| {
-            let mut text = String::new();
-            if let Some(pipe) = pipe {
-                pipe.read_to_string(&mut text).expect("the program prints text");
-            }
-            text
+        let heard = |pipe: &mut Option<JoinHandle<String>>| {
+            let pipe = pipe.take().expect("it ends once");
+            pipe.join().expect("it was read to its end")
         };
         Report {
             code: status.code(),
-            standard_output: read(self.child.stdout.as_mut().map(|pipe| pipe as &mut dyn Read)),
-            standard_error: read(self.child.stderr.as_mut().map(|pipe| pipe as &mut dyn Read)),
+            standard_output: heard(&mut self.output),
+            standard_error: heard(&mut self.error),
         }
     }
 }
