@@ -8,6 +8,7 @@ mod camera;
 mod drag;
 mod failures;
 mod files;
+mod large;
 mod look;
 mod materials;
 mod oracle;
