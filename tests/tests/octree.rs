@@ -207,7 +207,10 @@ fn measure(device: &Device, size: UVec2) {
             .map(|(scene, options)| (mean(&times(subject, &scene, device, 1, 1)), options))
             .collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let again: Vec<OctreeOptions> = models.into_iter().chain(all[..AGAIN].iter().map(|one| one.1)).collect();
+        let again: Vec<OctreeOptions> = models
+            .into_iter()
+            .chain(all.iter().take(AGAIN).map(|one| one.1))
+            .collect();
         let scenes: Vec<Arc<Scene>> = again.iter().map(|options| scene(subject, *options)).collect();
         let mut least = vec![vec![f64::INFINITY; subject.sets.len()]; scenes.len()];
         for _ in 0..ROUNDS {
@@ -218,7 +221,7 @@ fn measure(device: &Device, size: UVec2) {
             }
         }
         let (models, limits) = least.split_at(models.len());
-        let best = (0..AGAIN)
+        let best = (0..limits.len())
             .min_by(|a, b| mean(&limits[*a]).total_cmp(&mean(&limits[*b])))
             .unwrap();
         let of = |own: &[f64]| {
