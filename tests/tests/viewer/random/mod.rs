@@ -1,7 +1,9 @@
 //! A thousand random inputs: nothing panics, nothing leaks, and what is saved at last is what `oktant render` makes of all
 //! that was set.
 //!
-//! `OKTANT_SEED` names other inputs. The window has no way to close a mesh: it is closed where another is opened.
+//! `OKTANT_SEED` names other inputs, and `OKTANT_RANDOM=gpu` renders with the GPU now and then: with lavapipe that takes up to
+//! half as much memory again as before the thousand, which is not found yet. The window has no way to close a mesh: it is closed
+//! where another is opened.
 
 mod changes;
 mod files;
@@ -75,17 +77,8 @@ fn memory(window: &mut Running, session: &Session, picture: &str) -> u64 {
 
 #[test]
 #[ignore = "needs a display"]
-fn a_thousand_random_inputs_on_the_cpu() {
-    a_thousand_random_inputs(false);
-}
-
-#[test]
-#[ignore = "needs a display and a Vulkan driver"]
-fn a_thousand_random_inputs_on_cpu_and_gpu() {
-    a_thousand_random_inputs(true);
-}
-
-fn a_thousand_random_inputs(has_gpu: bool) {
+fn a_thousand_random_inputs() {
+    let has_gpu = std::env::var("OKTANT_RANDOM").is_ok_and(|what| what == "gpu");
     let seed = seed();
     println!("OKTANT_SEED={seed}");
     let session = Session::new();
