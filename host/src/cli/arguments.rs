@@ -114,7 +114,7 @@ pub struct ViewArguments {
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
     /// How long a picture may take while the camera or the light moves, milliseconds, 5 to 1000: resolution follows it, down to
-    /// an eighth of width and height, and so do samples.
+    /// a quarter of width and height, then reflections and samples of the first light; where there is time left, so do samples.
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(5..=1000))]
     pub target_ms: u32,
     /// Whether the panel with all settings is open at first; Tab opens and closes it [default: as it was left, else off].

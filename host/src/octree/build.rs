@@ -40,7 +40,9 @@ struct Split {
 pub(super) fn build(mesh: &Mesh, options: &OctreeOptions, progress: Progress<'_>) -> Result<Octree, BuildError> {
     let hittable = Hittable::of(mesh)?;
     let root = root(hittable.low, hittable.high, options.depth)?;
-    let budget = hittable.ids.len() * options.budget as usize;
+    // Nodes count references in 32 bits.
+    let times = |count: usize, factor: usize| count.saturating_mul(factor).min(u32::MAX as usize);
+    let budget = times(hittable.ids.len(), options.budget as usize);
     let count = hittable.ids.len() as u32;
     let cells = Levels {
         corners: &hittable.corners,
@@ -49,7 +51,7 @@ pub(super) fn build(mesh: &Mesh, options: &OctreeOptions, progress: Progress<'_>
         budget: if options.leaf.is_some() {
             budget
         } else {
-            UNPRUNED * budget
+            times(budget, UNPRUNED)
         },
         cells: Cells {
             nodes: vec![Node { first: 0, count }],

@@ -229,6 +229,40 @@ mod tests {
         assert_eq!((same.nodes, same.references), (cells.nodes, cells.references));
     }
 
+    /// The first child's splits gain more and need no reference more than the second's.
+    #[test]
+    fn references_go_where_they_gain_most() {
+        let mut cells = Cells {
+            nodes: vec![Node { first: 1, count: INNER }],
+            counts: vec![32],
+            references: Vec::new(),
+        };
+        for child in 0..8 {
+            let (first, count) = if child < 2 { (9 + 8 * child, INNER) } else { (0, 0) };
+            cells.nodes.push(Node { first, count });
+            cells.counts.push(if child < 2 { 16 } else { 0 });
+        }
+        for (first, each) in [(0, 2), (16, 6)] {
+            for grandchild in 0..8 {
+                cells.nodes.push(Node {
+                    first: cells.references.len() as u32,
+                    count: each,
+                });
+                cells.counts.push(each);
+                let mut inside: Vec<u32> = (0..each).map(|i| first + (each * grandchild + i) % 16).collect();
+                inside.sort_unstable();
+                cells.references.extend(inside);
+            }
+        }
+        let pruned = pruned(cells, &COSTS, 40);
+        let is_inner: Vec<bool> = pruned.nodes[..3].iter().map(Node::is_inner).collect();
+        assert_eq!(is_inner, [true, true, false]);
+        let second = &pruned.nodes[2];
+        let inside = &pruned.references[second.first as usize..][..second.count as usize];
+        assert_eq!(inside, (16..32).collect::<Vec<u32>>());
+        assert_eq!(pruned.references.len(), 32);
+    }
+
     #[test]
     fn a_cell_that_is_put_together_has_each_triangle_once() {
         for budget in [39, 10] {

@@ -256,6 +256,7 @@ impl Application {
             text,
             is_warning,
             is_about_load: false,
+            is_about_reload: false,
             until: Instant::now() + MESSAGE,
         });
         self.redraw();

@@ -77,9 +77,9 @@ impl Draft {
 /// How fast a back end renders the scene, and what drafts follow from that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paces {
-    /// With all reflections and refractions.
+    /// With all reflections and refractions, and all samples of the first light.
     full: Pace,
-    /// With few of them.
+    /// With few of them, and one sample of the first light.
     shallow: Pace,
 }
 

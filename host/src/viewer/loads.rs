@@ -73,6 +73,7 @@ impl Application {
                 self.tell(refusal.error.to_string(), true);
                 if let Some(message) = &mut self.message {
                     message.is_about_load = true;
+                    message.is_about_reload = loading.is_reload;
                 }
                 if loading.is_reload {
                     self.watcher.watch_also(refusal.stamps);
@@ -126,7 +127,9 @@ impl Application {
         let saved = self.views_of_scene();
         self.session.arrive(shift, saved);
         self.watcher.watch(arrival.stamps);
-        self.message.take_if(|message| message.is_about_load);
+        // What is read again says nothing of another file that was refused.
+        self.message
+            .take_if(|message| message.is_about_load && (!loading.is_reload || message.is_about_reload));
         if is_staged {
             self.schedule.change(now);
         } else {

@@ -49,6 +49,8 @@ pub struct Message {
     pub is_warning: bool,
     /// Whether it says why something was not loaded, and is no longer true when something is.
     pub is_about_load: bool,
+    /// Whether that something is what is shown, which was to be read again.
+    pub is_about_reload: bool,
     pub until: Instant,
 }
 

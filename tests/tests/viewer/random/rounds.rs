@@ -133,6 +133,8 @@ impl Hand {
 
     /// Files that can be opened, one after the other.
     fn opens_something(&mut self) {
+        // What is dropped before is refused, or is what is added to.
+        self.settles();
         self.does("set samples 1");
         match self.random.u32(0..4) {
             0 => self.opens_again(),
