@@ -196,7 +196,7 @@ mod tests {
         };
         let mut paces = Paces::guessed(false);
         paces.measured(false, 1_000_000, 3000.0);
-        paces.measured(true, 1_000_000, 500.0);
+        paces.measured(true, 1_000_000, 300.0);
         assert!(!paces.draft(&view, &POINT, SIZE, FLUID).is_shallow);
         let draft = paces.draft(&view, &area, SIZE, FLUID);
         assert!(draft.is_shallow && draft.edge < COARSEST, "{draft:?}");
