@@ -2,7 +2,6 @@
 
 use oktant_shared::adaptive::ROUNDS;
 use oktant_shared::frame::Frame;
-use std::iter::once;
 
 /// The most pixels along the edge of a block that is interpolated.
 pub const LARGEST_BLOCK: u32 = 8;
@@ -57,19 +56,6 @@ pub fn makes_list(pass: &Frame) -> bool {
     pass.is_listed != 0 && pass.first_sample == 0 && pass.first_listed == 0
 }
 
-/// The parts of a pass, each over at most `pixels` of the picture's or of the list's; rows of the picture are taken whole.
-pub fn parts(pass: &Frame, pixels: u32) -> Vec<Frame> {
-    let size = pass.size();
-    let all = size.x * size.y;
-    if pass.is_listed == 0 || all <= pixels {
-        return once(*pass).collect();
-    }
-    (0..all)
-        .step_by(pixels.max(1) as usize)
-        .map(|first_listed| Frame { first_listed, ..*pass })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -107,14 +93,5 @@ mod tests {
             );
             assert_eq!(rounds.iter().filter(|pass| makes_list(pass)).count() as u32, ROUNDS);
         }
-    }
-
-    #[test]
-    fn parts_cover_the_list() {
-        let pass = passes(&frame(16, 1), 16)[1];
-        let parts = parts(&pass, 1024);
-        let firsts: Vec<u32> = parts.iter().map(|part| part.first_listed).collect();
-        assert_eq!(firsts, [0, 1024, 2048]);
-        assert_eq!(parts.iter().filter(|part| makes_list(part)).count(), 1);
     }
 }

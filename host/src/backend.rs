@@ -146,6 +146,11 @@ impl BackendError {
         }
     }
 
+    /// Whether pictures can be rendered that are not adaptive.
+    pub fn is_about_lists(&self) -> bool {
+        matches!(self, BackendError::Kernel(error) if error.is_about_lists())
+    }
+
     /// What went wrong, without what to do.
     pub fn what(&self) -> String {
         match self {

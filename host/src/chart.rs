@@ -27,6 +27,7 @@ mod plot;
 mod range;
 mod record;
 mod render;
+mod samples;
 mod sitter;
 mod style;
 
@@ -47,3 +48,4 @@ pub use plan::{MeasureError, Plan, chart_name};
 pub use range::range;
 pub use record::{Record, Value};
 pub use render::ChartError;
+pub use samples::samples;

@@ -1,6 +1,7 @@
 //! What a picture took, and what was left out of it.
 
 use crate::picture::Picture;
+use crate::scene::Scene;
 use glam::Vec4;
 use oktant_shared::display::{STEPS, steps};
 use oktant_shared::frame::Frame;
@@ -15,7 +16,7 @@ pub struct Effort {
     /// Rays that asked whether a light is seen.
     pub shadow: f64,
     /// The weight of the rays that were not followed, in the pixel where it is greatest: what is missing there is at most
-    /// this part of the brightest light that a ray can meet.
+    /// this part of the brightest light that a ray can see ([`Scene::brightest_through`]).
     pub greatest_cut: f64,
     /// The same, in the mean of all pixels.
     pub mean_cut: f64,
@@ -27,17 +28,18 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// Of a picture all of whose samples are taken; the frame says how bright things are, and how they are shown.
-    pub fn new(picture: &Picture, frame: Option<&Frame>) -> Self {
+    /// Of a picture all of whose samples are taken; its scene says how bright things are, its frame how they are shown.
+    pub fn new(picture: &Picture, of: Option<(&Scene, &Frame)>) -> Self {
+        let of = of.map(|(scene, frame)| (frame, scene.brightest_through(&frame.light)));
         let mut effort = picture
             .sums
             .par_iter()
             .zip(&picture.work)
             .map(|(sum, work)| {
                 let cut = cut(*sum, *work);
-                let off = frame.map_or(0.0, |frame| {
+                let off = of.map_or(0.0, |(frame, brightest)| {
                     // No output has more.
-                    f64::from(steps(frame, mean_color(*sum), frame.brightest * cut as f32).min(STEPS))
+                    f64::from(steps(frame, mean_color(*sum), brightest * cut as f32).min(STEPS))
                 });
                 Effort {
                     closest: f64::from(work.x),
@@ -103,7 +105,6 @@ mod tests {
     use crate::model::{Model, plain_material};
     use crate::progress::silent;
     use crate::sampling::{Filter, Samples};
-    use crate::scene::Scene;
     use crate::structure::StructureOptions;
     use crate::view::View;
     use glam::{Vec3, vec4};
@@ -188,7 +189,7 @@ mod tests {
             };
             let frame = view.frame(&scene, 64, 48);
             let picture = Cpu::new(scene.clone()).render(&frame, &silent).unwrap();
-            let effort = Effort::new(&picture, Some(&frame));
+            let effort = Effort::new(&picture, Some((&scene, &frame)));
             assert!(effort.greatest_steps > 0.1 * 255.0 && effort.greatest_steps > effort.mean_steps);
             assert!(effort.greatest_cut > 0.1 && effort.mean_cut < 0.1, "{effort:?}");
             assert!(effort.closest >= 64.0 * 48.0 * 4.0);

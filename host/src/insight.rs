@@ -1,6 +1,7 @@
 //! What pixels tell of the work behind them: what they see, what their rays visit and test, how many rays they take.
 
 mod aspect;
+mod camera_rays;
 mod drawing;
 mod figures;
 mod legend;
@@ -24,6 +25,7 @@ use crate::scene::Scene;
 use crate::seen::{Seen, middles};
 use crate::slots::Slots;
 use crate::trace::{Layout, Recorder, Visit};
+use camera_rays::CameraRays;
 use glam::{Vec4, uvec2};
 use oktant_shared::frame::Frame;
 use oktant_shared::plane::PLANE;
@@ -133,6 +135,15 @@ impl Insight {
                 Some(counts.collect())
             }
             Aspect::ShadowRays => of_work(|work| work.y),
+            Aspect::RecursionRays => {
+                let mut camera_rays = CameraRays::new(frame);
+                let picture = Cpu::new(scene.clone())
+                    .render_watched(frame, cancel, progress, |picture| camera_rays.count(picture));
+                picture.map(|picture| {
+                    let rays = picture.work.iter().zip(&camera_rays.counts);
+                    rays.map(|(work, camera)| work.x - camera).collect()
+                })
+            }
             Aspect::Rays => of_work(|work| work.x + work.y),
         };
         Ok(numbers.map(|numbers| Insight {

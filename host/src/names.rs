@@ -21,3 +21,8 @@ impl Names {
         named.filter_map(|(index, name)| Some((index, name.as_deref()?)))
     }
 }
+
+/// A name, or text with names in it, as a line has it: what would end the line, or is no letter at all, is a space.
+pub fn on_one_line(text: &str) -> String {
+    text.replace(char::is_control, " ")
+}

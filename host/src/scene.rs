@@ -1,9 +1,12 @@
 //! A model with the structure that rays are traced through, in the arrays that the kernel reads.
 
+mod brightness;
+mod features;
 mod memory;
 mod staging;
 mod validate;
 
+pub use features::Features;
 pub use memory::Memory;
 pub use staging::Staging;
 pub use validate::InvalidModel;
@@ -14,6 +17,7 @@ use crate::mesh::Mesh;
 use crate::model::{Focus, Model, needs_coordinates, white_light};
 use crate::progress::Progress;
 use crate::structure::{InvalidStructure, Structure, StructureOptions};
+use brightness::brightest_colors;
 use bytemuck::Zeroable;
 use glam::{UVec4, Vec2, Vec3, Vec4};
 use oktant_shared::environment::Environment;
@@ -52,6 +56,10 @@ pub struct Scene {
     pub ids: Arc<Vec<u32>>,
     /// Normals and colours by vertex; a single one where the mesh has neither, or normals of 32 bits beside its corners.
     pub vertices: Arc<Vec<Vertex>>,
+    /// Whether the mesh has normals by vertex.
+    pub has_normals: bool,
+    /// Whether it has colours by vertex.
+    pub has_colors: bool,
     /// Texture coordinates by vertex; a single one where the mesh has none.
     pub coordinates: Arc<Vec<Vec2>>,
     /// Index of the material by slot; a single one where the scene is plain.
@@ -76,8 +84,8 @@ pub struct Scene {
     pub environment: Environment,
     /// Ambient light, linear RGB.
     pub ambient: Vec3,
-    /// The brightest that is around, linear RGB.
-    pub brightest_around: Vec3,
+    /// The brightest colour of each texture, linear RGB.
+    pub brightest_colors: Arc<Vec<Vec3>>,
     /// What it needs of a kernel: bits of [`oktant_shared::variant`].
     pub needs: u32,
     /// The variant of the kernel's body that renders it with the default parts, or on the CPU with the compact ones.
@@ -153,6 +161,7 @@ impl Scene {
                 .into_par_iter()
                 .map(|i| Vertex {
                     normal: if has_normals { mesh.normals[i] } else { Vec3::ZERO },
+                    // White where there is none.
                     color: if has_colors {
                         u32::from_le_bytes(mesh.colors[i])
                     } else {
@@ -188,7 +197,7 @@ impl Scene {
                 material.flags &= !VERTEX_COLORS;
             }
         }
-        let brightest_around = brightest_around(&model.environment, &model.textures, &model.texels);
+        let brightest_colors = brightest_colors(&model.textures, &model.texels);
         let mut scene = Scene {
             parts,
             root: structure.root,
@@ -206,6 +215,8 @@ impl Scene {
             },
             ids: shared(structure.ids),
             vertices: shared(vertices),
+            has_normals,
+            has_colors,
             coordinates: shared(model.mesh.coordinates),
             material_ids: shared(material_ids),
             materials,
@@ -218,7 +229,7 @@ impl Scene {
             texels: shared(model.texels),
             environment: model.environment,
             ambient: model.ambient,
-            brightest_around,
+            brightest_colors: Arc::new(brightest_colors),
             needs: 0,
             variant: Variant::Everything,
             focus,
@@ -249,10 +260,19 @@ impl Scene {
         Some(self)
     }
 
+    /// The variant that the CPU renders it with; none where that is the general body, which has everything and takes any parts.
+    pub fn cpu_variant(&self) -> Option<Variant> {
+        matches!(self.parts, Parts::STANDARD | Parts::COMPACT).then_some(self.variant)
+    }
+
+    /// The variant that a GPU renders it with, likewise.
+    pub fn gpu_variant(&self) -> Option<Variant> {
+        (self.parts == Parts::STANDARD).then_some(self.variant)
+    }
+
     /// Only what looks at no more than the first material does without the material of each triangle.
     fn lay_out_materials(&mut self) {
-        let is_general = !matches!(self.parts, Parts::STANDARD | Parts::COMPACT);
-        let looks = is_general || self.variant.offers() & MATERIALS != 0;
+        let looks = self.cpu_variant().is_none() || self.variant.offers() & MATERIALS != 0;
         if looks && self.material_ids.len() < self.ids.len() {
             self.material_ids = Arc::new(vec![0; self.ids.len()]);
         }
@@ -337,40 +357,6 @@ impl Scene {
         self.needs == PLAIN
     }
 
-    /// The brightest that a ray can meet, linear RGB, with its first light moved: a surface in the light of all lamps, or
-    /// what is around. Through highlights on mirrors and glass it may see more.
-    pub fn brightest(&self, light: &Light) -> Vec3 {
-        let others = self.lights.iter().take(self.light_count as usize);
-        let incident: Vec3 = std::iter::once(light)
-            .chain(others)
-            .map(|light| self.brightest_arriving(light))
-            .sum();
-        let own = self.materials.iter().map(|material| {
-            material.base * (material.ambient * self.ambient)
-                + (material.base * material.diffuse + material.specular) * incident
-        });
-        own.fold(self.brightest_around, Vec3::max).max(incident)
-    }
-
-    /// The most of a light that can arrive anywhere on the mesh.
-    fn brightest_arriving(&self, light: &Light) -> Vec3 {
-        if light.falloff_radius == 0.0 {
-            return light.color;
-        }
-        let nearest = if self.plane_count > 0 {
-            0.0
-        } else {
-            let reach = if light.kind == AREA {
-                light.edge_u.length() + light.edge_v.length()
-            } else {
-                0.0
-            };
-            let outside = light.position.clamp(self.low, self.high).distance(light.position);
-            (outside - reach).max(0.0)
-        };
-        light.color / nearest.max(light.falloff_radius).powi(2)
-    }
-
     /// Centre of the bounding box, scene units.
     pub fn center(&self) -> Vec3 {
         (self.low + self.high) / 2.0
@@ -385,30 +371,6 @@ impl Scene {
 /// Whether a picture shows where the normal of a surface is off by so little that no shading would.
 fn bends_rays(material: &Material) -> bool {
     material.mirror != Vec3::ZERO || material.is_transmissive() || material.bump != NO_TEXTURE
-}
-
-/// The brightest colour of an environment.
-fn brightest_around(environment: &Environment, textures: &[Texture], texels: &[u32]) -> Vec3 {
-    if environment.texture == NO_TEXTURE {
-        return environment.zenith.max(environment.horizon).max(environment.nadir);
-    }
-    let texture = textures[environment.texture as usize];
-    if !texture.is_image() {
-        return Vec3::splat(environment.strength);
-    }
-    let first = texture.first as usize;
-    let count = texture.width as usize * texture.height as usize;
-    // One texel of an image is its colour in the middle of the texel.
-    let single = Texture {
-        first: 0,
-        width: 1,
-        height: 1,
-        ..texture
-    };
-    let colors = texels[first..first + count]
-        .par_iter()
-        .map(|texel| single.color(std::slice::from_ref(texel), Vec2::splat(0.5)));
-    colors.reduce(|| Vec3::ZERO, Vec3::max) * environment.strength
 }
 
 fn never_empty<T: Zeroable>(mut elements: Vec<T>) -> Vec<T> {

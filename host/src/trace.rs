@@ -41,6 +41,8 @@ pub struct Trace {
     pub hit: Option<TracedHit>,
     /// What there is, in f64.
     pub right: Option<TracedHit>,
+    /// What there is behind that, in f64, nearest first.
+    pub beyond: Vec<TracedHit>,
     /// How the two compare.
     pub verdict: &'static str,
     /// By how much the origin was advanced to the structure, in `t`.
@@ -193,6 +195,12 @@ impl Trace {
                 edge_distance: oracle.edge_distance(id, &exact),
             }
         };
+        let mut there = oracle.hits(&exact).into_iter().map(|hit| TracedHit {
+            triangle: hit.triangle,
+            t: hit.t,
+            u: hit.u,
+            v: hit.v,
+        });
         let (low, high) = mesh.bounds().unwrap_or((Vec3::ZERO, Vec3::ZERO));
         let aabb = oktant_shared::aabb::Aabb { low, high };
         let boxes = BoxKind::ALL.iter().map(|kind| {
@@ -217,12 +225,8 @@ impl Trace {
             },
             parts: PartNames::of(scene.parts),
             hit,
-            right: oracle.closest(&exact).map(|hit| TracedHit {
-                triangle: hit.triangle,
-                t: hit.t,
-                u: hit.u,
-                v: hit.v,
-            }),
+            right: there.next(),
+            beyond: there.collect(),
             verdict: verdict(&oracle, &exact, answer),
             advanced: advance * prepared.scale,
             boxes: boxes.collect(),

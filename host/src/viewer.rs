@@ -17,10 +17,12 @@ mod event;
 mod figures;
 mod fluidity;
 mod flying;
+mod given;
 mod gpu_memory;
 mod gpu_screen;
 mod grammar;
 mod handler;
+mod held;
 mod input;
 mod kernel_file;
 mod layers;
@@ -74,6 +76,7 @@ mod worker;
 mod written_camera;
 
 pub use crate::accident::Accident;
+pub use given::{GivenSetting, Unsettable};
 pub use look::Look;
 pub use notice::LoadError;
 pub use screen::ScreenError;
@@ -103,6 +106,8 @@ pub struct ViewerOptions {
     pub structure: StructureOptions,
     /// What is changed in the view that comes with it, or with whatever is looked at later.
     pub look: Look,
+    /// What of its lights, materials and surroundings is set.
+    pub set: Vec<GivenSetting>,
     /// Width and height of the window's inside, physical pixels; as the scene says, else 1280 times 968.
     pub size: Option<[u32; 2]>,
     /// What renders.

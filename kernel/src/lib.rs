@@ -3,8 +3,8 @@
 //! An entry point guards against invocations beyond the end of its buffers, calls a function of `oktant-shared` and
 //! stores the result. Descriptor set 0 holds what rays meet, set 1 the frame, set 2 what is read and
 //! written per invocation, set 3 what surfaces look like. Where triangles are indexed, the references are the corners of
-//! triangles, and the triangles rows of vertices. What casts rays with other parts than the default ones is in the module of
-//! `kernel/parts`.
+//! triangles, and the triangles rows of vertices. What renders the pixels of a list is in the module
+//! of `kernel/lists`, what casts rays with other parts than the default ones in that of `kernel/parts`.
 #![cfg_attr(target_arch = "spirv", no_std)]
 #![expect(
     clippy::too_many_arguments,

@@ -19,6 +19,7 @@ use crate::display::encoded;
 use crate::frame::Frame;
 use crate::present::mean_color;
 use crate::sampling::Batch;
+use crate::stereo::EyeView;
 use bytemuck::{Pod, Zeroable};
 use glam::{UVec2, Vec3, Vec4, uvec2};
 
@@ -392,6 +393,21 @@ fn refined(frame: &Frame, known: &Known<'_>, pixel: UVec2) -> u32 {
 #[inline]
 fn allowed(frame: &Frame, level: u32) -> f32 {
     frame.tolerance * (2 << (2 * (level - SINGLE))) as f32
+}
+
+/// Invocations of a workgroup that renders pixels of a list.
+pub const LIST_GROUP: u32 = 128;
+
+/// How many pixels of a list such a workgroup renders in a pass that has a sample at least: most have four samples, so that each
+/// invocation gets one; where a pass has fewer, more pixels.
+#[inline]
+pub fn pixels_of_group(frame: &Frame) -> u32 {
+    let pixels = LIST_GROUP / (frame.sample_count * EyeView::eyes(frame));
+    if pixels > LIST_GROUP / 4 {
+        pixels
+    } else {
+        LIST_GROUP / 4
+    }
 }
 
 /// A pixel of a list: its index in the picture, and the level at which it is to be traced.

@@ -50,13 +50,14 @@ pub fn store<T: Copy>(elements: &mut [T], index: u32, value: T) {
     }
 }
 
-/// The entry at `index` of an array of the invocation's own, which the caller knows to be in range.
+/// The entry at `index` of an array of the invocation's own or of its workgroup's, which the caller knows to be in range.
 #[inline(always)]
 pub fn get<T: Copy, const N: usize>(entries: &[T; N], index: u32) -> T {
     #[cfg(target_arch = "spirv")]
     {
         use spirv_std::arch::IndexUnchecked;
-        // SAFETY: the host lets no structure pass that is deeper than the arrays of its traversal.
+        // SAFETY: the host lets no structure pass that is deeper than the arrays of its traversal; a workgroup's have an entry
+        // for each invocation.
         unsafe { *entries.index_unchecked(index as usize) }
     }
     #[cfg(not(target_arch = "spirv"))]

@@ -8,6 +8,7 @@
 use crate::brute::{Tile, Together, Workgroup};
 use crate::buffer::store;
 use crate::hit::Hit;
+use crate::pixels::ROW;
 use crate::ray::Ray;
 use crate::scene::Scene;
 use crate::traversal::Traversal;
@@ -15,9 +16,6 @@ use glam::{UVec3, UVec4, Vec4};
 
 /// Threads of a workgroup.
 const LINE: u32 = 64;
-
-/// Workgroups of a row of a dispatch: devices allow 65,535 along an axis.
-const ROW: u32 = 32_768;
 
 /// An entry point that takes `$inputs` beside the buffers, and calls `$cast` with `$arguments`, the scene, the rays and where
 /// the hits go.

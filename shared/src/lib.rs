@@ -79,6 +79,7 @@ pub mod octree;
 pub mod optics;
 pub mod orbit;
 pub mod parts;
+pub mod pixels;
 pub mod plane;
 pub mod present;
 pub mod ray;

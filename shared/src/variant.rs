@@ -91,13 +91,23 @@ impl Variant {
         }
     }
 
-    /// The kernel's entry point that has it.
+    /// The kernel's entry point that renders all pixels with it.
     pub const fn entry_point(self) -> &'static str {
         match self {
             Variant::Plain => "render_plain",
             Variant::Opaque => "render_opaque",
             Variant::Mirrors => "render_mirrors",
             Variant::Everything => "render",
+        }
+    }
+
+    /// The entry point that renders the pixels of a list with it.
+    pub const fn entry_point_of_lists(self) -> &'static str {
+        match self {
+            Variant::Plain => "render_listed_plain",
+            Variant::Opaque => "render_listed_opaque",
+            Variant::Mirrors => "render_listed_mirrors",
+            Variant::Everything => "render_listed",
         }
     }
 }

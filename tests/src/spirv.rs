@@ -28,6 +28,14 @@ impl CompiledKernel {
         Self::of("compiled")
     }
 
+    /// The one for lists of pixels, which belongs into the folder `lists`.
+    ///
+    /// # Panics
+    /// Where it is not in the repository.
+    pub fn lists() -> Self {
+        Self::of("compiled/lists")
+    }
+
     /// The one for other parts than the default ones, which belongs into the folder `parts`.
     ///
     /// # Panics

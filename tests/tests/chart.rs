@@ -203,6 +203,8 @@ fn charts_are_measured_and_drawn_again() {
         "image-error-rmse",
         "image-error-flip",
         "depth-error",
+        "samples-flip",
+        "samples-rmse",
     ];
     assert_eq!(made.output.lines().count(), 3 * stems.len(), "{}", made.output);
     let read = |stem: &str| Figure::read(&folder.path().join(format!("deep/charts/{stem}.csv"))).unwrap();
@@ -430,7 +432,7 @@ fn scenes_alone_make_charts_of_scenes() {
     let small = ["--backend", "cpu", "--repeat", "1", "--pictures", "8x6", "-o", "x"];
     let made = chart(folder.path(), &[["a.toml", "./a.toml"].as_slice(), &small].concat());
     assert_eq!(made.code, Some(0), "{}", made.error);
-    assert_eq!(made.output.lines().count(), 9, "{}", made.output);
+    assert_eq!(made.output.lines().count(), 15, "{}", made.output);
     let figure = Figure::read(&folder.path().join("x/image-error-rmse.csv")).unwrap();
     assert_eq!((figure.panels.len(), figure.panels[0].name.as_str()), (1, "a"));
     // Three patterns in four numbers of samples, and in three that are adaptive, and three sizes of blocks.

@@ -140,6 +140,26 @@ fn a_view_file_that_is_none_is_told_before_anything_is_loaded() {
 }
 
 #[test]
+fn what_the_environment_wants_told_is_told_unless_an_option_says_how_much() {
+    let folder = folder();
+    let told = |variable: &str, more: &[&str]| {
+        let mut command = Command::new(oktant());
+        command
+            .env("RUST_LOG", variable)
+            .args(more)
+            .args(["info", "triangle.ply"]);
+        let run = finish(command.current_dir(folder.path()));
+        assert_eq!(run.code, Some(0), "{}", run.error);
+        run.error
+    };
+    let is_told = |variable: &str, more: &[&str]| told(variable, more).contains(" INFO ");
+    assert!(!is_told("warn", &[]));
+    assert!(is_told("oktant=info", &[]), "{}", told("oktant=info", &[]));
+    assert!(!is_told("oktant=info", &["--quiet"]));
+    assert!(is_told("warn", &["-v"]));
+}
+
+#[test]
 fn options_that_a_scene_gives_no_meaning_are_refused_with_code_2() {
     let folder = folder();
     fs::write(folder.path().join("a.toml"), "[[sphere]]\n").unwrap();
@@ -278,6 +298,54 @@ fn a_full_standard_output_is_told() {
     );
 }
 
+/// Oracle: the scene file that says the same.
+#[test]
+fn what_is_set_is_as_if_the_scene_said_it() {
+    let folder = folder();
+    let scene = |name: &str, mirror: &str, color: &str, around: &str| {
+        let text = format!(
+            "[materials.silver]\nbase = 0.5\nmirror = {mirror}\ndiffuse = 0.85\nambient = 1\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n\
+             material = 'silver'\n[[light]]\nposition = [1, 2, 3]\ncolor = {color}\n[environment]\ncolor = {around}\n"
+        );
+        fs::write(folder.path().join(name), text).unwrap();
+    };
+    scene("plain.toml", "0", "1", "[0.2, 0.3, 0.4]");
+    scene("changed.toml", "0.5", "[1, 0, 0]", "0.25");
+    let set = [
+        "material silver mirror 0.5",
+        "add light",
+        "light 0 color 1,0,0",
+        "remove light 1",
+        "environment color 0.25",
+    ]
+    .map(|setting| ["--set", setting]);
+    for how in [&["--backend", "cpu"][..], &["--reference"]] {
+        let render = |scene: &str, set: &[&str]| {
+            let start = ["render", scene, "--size", "40x30", "-o", "out.png"];
+            let rendered = run(folder.path(), [&start, how, set].concat());
+            assert_eq!(rendered.code, Some(0), "{}", rendered.error);
+            fs::read(folder.path().join("out.png")).unwrap()
+        };
+        let wanted = render("changed.toml", &[]);
+        assert!(wanted != render("plain.toml", &[]));
+        assert!(wanted == render("plain.toml", set.as_flattened()), "{how:?}");
+    }
+    for (setting, words) in [
+        ("light 7 range 2", "there is no light 7"),
+        ("material slver mirror 1", "did you mean \"silver\""),
+        ("samples 4", "--samples 4"),
+        ("lihgt 0 range 2", "did you mean \"light\""),
+    ] {
+        let refused = run(
+            folder.path(),
+            ["render", "plain.toml", "-o", "none.png", "--set", setting],
+        );
+        assert_eq!(refused.code, Some(2), "{}", refused.error);
+        assert!(refused.error.contains(words), "{setting}: {}", refused.error);
+        assert!(!folder.path().join("none.png").exists());
+    }
+}
+
 #[test]
 fn info_has_the_figures() {
     let folder = folder();
@@ -292,12 +360,68 @@ fn info_has_the_figures() {
         "leaves ",
         "bytes ",
         "arrays       bytes per triangle: nodes 13.7, references 0.0",
-        "triangles 48.0, ids 4.0, normals 6.0, colours 2.0, coordinates 0.0",
+        "triangles 48.0, ids 4.0, normals 8.0, colours 0.0, coordinates 0.0",
         "ms to build",
         "entry points",
         "adapter ",
     ] {
         assert!(run.output.contains(word), "{word:?} is not in\n{}", run.output);
+    }
+}
+
+#[test]
+fn info_says_what_a_scene_has_and_what_renders_it() {
+    let folder = folder();
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/scenes");
+    let told = |arguments: &[&str]| {
+        let run = run(folder.path(), [&["info"], arguments].concat());
+        assert_eq!(run.code, Some(0), "{}", run.error);
+        ["needs", "variant"].map(|name| {
+            let mut lines = run.output.lines().filter_map(|line| line.strip_prefix(name));
+            lines.next().expect("a line").trim().to_owned()
+        })
+    };
+    let all = "of plain, opaque, mirrors and everything";
+    for (scene, needs, variant) in [
+        (
+            "bunny.toml",
+            "shadows of 1 light, 1 material, smooth normals, 4 samples a pixel",
+            "plain",
+        ),
+        (
+            "cornell.toml",
+            "shadows of 2 lights (1 with an area), 4 materials, flat normals, 4 samples a pixel",
+            "opaque",
+        ),
+        (
+            "bumps.toml",
+            "shadows of 1 light, 3 materials, 1 plane, textures, bumps, mirrors, smooth normals, 4 samples a pixel",
+            "mirrors",
+        ),
+        (
+            "glass.toml",
+            "shadows of 2 lights, 5 materials, glass, smooth normals, 4 samples a pixel",
+            "everything",
+        ),
+    ] {
+        let file = scenes.join(scene);
+        let wanted = [needs.to_owned(), format!("{variant}, {all}")];
+        assert_eq!(told(&[file.to_str().unwrap()]), wanted, "{scene}");
+    }
+    // What is said of the same mesh does not depend on what traces rays through it.
+    let general = "everything, in the general kernel that other parts than the default ones have";
+    let needs = "shadows of 1 light, 1 material, flat normals, 1 sample a pixel";
+    for (parts, variant) in [
+        (&["--traversal", "octants"][..], format!("plain, {all}")),
+        (&["--traversal", "octree"], general.into()),
+        (&["--triangle", "plucker"], general.into()),
+        (
+            &["--traversal", "compact"],
+            format!("on the CPU plain, {all}; on a GPU {general}"),
+        ),
+    ] {
+        let told = told(&[&["triangle.ply"], parts].concat());
+        assert_eq!(told, [needs.to_owned(), variant], "{parts:?}");
     }
 }
 

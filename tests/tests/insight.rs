@@ -124,6 +124,33 @@ fn figures_are_those_of_the_numbers() {
     }
 }
 
+/// Oracle: the samples that are asked for, each of which is one ray of the camera.
+#[test]
+fn all_rays_are_the_cameras_those_to_lights_and_those_of_recursion() {
+    let folder = tempfile::tempdir().unwrap();
+    let mirrors = docs().join("../assets/scenes/mirrors.toml");
+    for (source, samples) in [("bunny", 1), (mirrors.to_str().unwrap(), 4)] {
+        let of = |aspect: &str| {
+            let samples = format!("--samples={samples}");
+            rendered(
+                folder.path(),
+                &[source, &samples, "--size", SIZE, "--show", aspect, "-o", "a.exr"],
+            );
+            numbers(folder.path(), "a.exr").0
+        };
+        let [all, shadow, recursion] = ["rays", "shadow-rays", "recursion-rays"].map(of);
+        for (index, all) in all.iter().enumerate() {
+            assert_eq!(
+                *all,
+                samples as f32 + shadow[index] + recursion[index],
+                "{source}, pixel {index}"
+            );
+        }
+        let reflected = recursion.iter().filter(|number| **number > 0.0).count();
+        assert_eq!(reflected > 100, source != "bunny", "{source}: {reflected}");
+    }
+}
+
 /// Oracle: `oktant trace` of the same ray.
 #[test]
 fn numbers_are_those_of_the_traced_ray() {

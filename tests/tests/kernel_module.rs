@@ -16,8 +16,9 @@ fn workspace() -> PathBuf {
 }
 
 /// The crates that are compiled to SPIR-V, and where.
-const CRATES: [[&str; 2]; 3] = [
+const CRATES: [[&str; 2]; 4] = [
     ["kernel", "kernel/compiled"],
+    ["kernel/lists", "kernel/compiled/lists"],
     ["kernel/parts", "kernel/compiled/parts"],
     ["kernel/probes", "kernel/compiled/probes"],
 ];

@@ -246,6 +246,18 @@ fn what_is_cast_with_must_be_there() {
     let name = "no entry point `closest_octants_plucker`";
     succeeds("--triangle=watertight");
     missing(&[name, "there is no parts", "copy"]);
+    // What casts with the default parts belongs to the first module.
+    let first = CompiledKernel::committed();
+    first
+        .renamed("closest_octants_watertight", "closest_octants_x")
+        .write(folder.path());
+    let of_first = [
+        "oktant: oktant.spv: ",
+        "no entry point `closest_octants_watertight`",
+        "add it",
+    ];
+    assert_refused(&cast("--triangle=watertight"), 1, &of_first);
+    first.write(folder.path());
     let good = CompiledKernel::parts();
     good.write(&parts);
     succeeds("--triangle=plucker");
@@ -255,4 +267,27 @@ fn what_is_cast_with_must_be_there() {
     missing(&[name, "add it"]);
     fs::write(parts.join("oktant.spv"), "no module").unwrap();
     assert_refused(&cast("--triangle=watertight"), 1, &["parts", "not a SPIR-V module"]);
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver"]
+fn what_renders_lists_must_be_there() {
+    let folder = tempdir().unwrap();
+    CompiledKernel::committed().write(folder.path());
+    let render = |more: &[&str]| render(folder.path(), &[&["--backend=gpu"], more].concat());
+    let adaptive = || render(&["--samples=adaptive:4"]);
+    let whole = render(&["--samples=4"]);
+    assert_eq!(whole.code, Some(0), "{}", whole.error);
+    fs::remove_file(folder.path().join("a.png")).unwrap();
+    let name = "no entry point `render_listed_plain`";
+    assert_refused(&adaptive(), 1, &[name, "there is no lists", "copy"]);
+    assert!(!folder.path().join("a.png").exists());
+    let lists = CompiledKernel::lists();
+    lists.write(&folder.path().join("lists"));
+    let run = adaptive();
+    assert_eq!(run.code, Some(0), "{}", run.error);
+    lists
+        .renamed("render_listed_plain", "render_listed_plaim")
+        .write(&folder.path().join("lists"));
+    assert_refused(&adaptive(), 1, &["lists", name, "add it"]);
 }

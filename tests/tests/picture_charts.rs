@@ -3,7 +3,7 @@
 
 use glam::uvec2;
 use oktant::bench::Device;
-use oktant::chart::{Figure, Plan, depth_error, image_error};
+use oktant::chart::{Figure, Plan, depth_error, image_error, samples};
 use oktant::mesh_source::MeshSource;
 use oktant::progress::silent;
 use oktant::source::Source;
@@ -93,9 +93,63 @@ fn deeper_trees_and_lower_cutoffs_leave_less_error() {
         cutoffs[15] > 2.0 * cutoffs[10] && cutoffs[10] >= cutoffs[0],
         "{cutoffs:?}"
     );
+    // What differs is counted from a picture that is cut itself, of which there is a bound too.
+    for (quantity, what, uncut) in [
+        ("greatest", "depth", 16),
+        ("greatest", "cut-off", 1),
+        ("mean", "cut-off", 1),
+    ] {
+        let of = |series: &str| values(&figure, &format!("{quantity} steps of 8 bits by {what}"), series);
+        let (off, bounds) = (of("mirrors"), of("mirrors, bound"));
+        assert_eq!((off.len(), bounds.len()), (by(what).len(), by(what).len()));
+        assert_eq!(off[uncut], 0.0, "the same picture");
+        for (off, bound) in off.iter().zip(&bounds) {
+            assert!(*off <= bound + bounds[uncut], "{quantity} by {what}: {off} {bound}");
+        }
+        let last = off.len() - 1;
+        let (most, least) = if what == "depth" { (0, last) } else { (last, 0) };
+        assert!(
+            off[most] > 10.0 * off[least] && bounds[most] > 1.5 * bounds[least],
+            "{quantity} by {what}: {off:?} {bounds:?}"
+        );
+    }
     assert_eq!(
         figure.records.iter().filter(|record| record.is_marked).count(),
-        6,
-        "two defaults, three values each"
+        12,
+        "two defaults, three values each, and three that are bounded, with their bounds"
+    );
+}
+
+#[test]
+fn rays_buy_less_error() {
+    let [flip, rmse] = samples(&plan(Source::Mesh(MeshSource::Balls)), &silent).unwrap();
+    let bar = "the bar";
+    assert_eq!(flip.series(), ["as many everywhere", "adaptive:16", bar]);
+    assert_eq!(rmse.series(), ["as many everywhere", "adaptive:16"]);
+    let rays = |series: &str| -> Vec<f64> {
+        let own = flip.records.iter().filter(|record| record.series == series);
+        own.map(|record| record.x).collect()
+    };
+    for figure in [&flip, &rmse] {
+        assert_eq!(figure.records.iter().filter(|record| record.is_marked).count(), 2);
+        for series in ["as many everywhere", "adaptive:16"] {
+            let errors = values(figure, "balls", series);
+            // Samples that bring nothing more bring other roundings.
+            let is_less = |a: &f64, b: &f64| *a >= b * (1.0 - 1e-9);
+            assert!(errors.is_sorted_by(is_less), "{}: {errors:?}", figure.stem);
+        }
+    }
+    // A camera ray a sample, and a shadow ray where it hits.
+    let (fixed, adaptive) = (rays("as many everywhere"), rays("adaptive:16"));
+    assert_eq!((fixed.len(), adaptive.len()), (4, 7));
+    for (rays, samples) in fixed.iter().zip([1.0, 4.0, 16.0, 64.0]) {
+        assert!((samples..2.0 * samples).contains(rays), "{fixed:?}");
+    }
+    assert!(adaptive.is_sorted() && adaptive[0] > fixed[0] && adaptive[6] < fixed[2]);
+    let errors = values(&flip, "balls", "as many everywhere");
+    assert_eq!(rays(bar), [fixed[0], 0.35 * fixed[2], 0.35 * fixed[2]]);
+    assert_eq!(
+        values(&flip, "balls", bar),
+        [1.05 * errors[2], 1.05 * errors[2], errors[3]]
     );
 }

@@ -47,6 +47,26 @@ fn meets(origin: [f64; 3], direction: [f64; 3], low: [f64; 3], high: [f64; 3]) -
     enter <= exit
 }
 
+/// A ray through a closed ball enters it where one the other way from its inside leaves it, and leaves it again behind that.
+#[test]
+fn what_lies_behind_the_hit_is_told() {
+    let inside = json(&["lab:edges", "--ray", RAY]);
+    assert!(list(&inside["beyond"]).is_empty());
+    let through = ["lab:edges", "--ray", "-2.9,7.05,1.8,0.3,-0.7,-0.2"];
+    let trace_through = json(&through);
+    assert_eq!(trace_through["right"]["triangle"], inside["right"]["triangle"]);
+    let [there] = list(&trace_through["beyond"]) else {
+        panic!("{}", trace_through["beyond"]);
+    };
+    assert!(number(&there["t"]) > 10.0, "{there}");
+    let folder = tempfile::tempdir().unwrap();
+    let told = trace(folder.path(), &through).output;
+    let start = format!("beyond    triangle {}, t = ", there["triangle"]);
+    let t = told.lines().find_map(|line| line.strip_prefix(&start));
+    let t: f64 = t.expect("it is in the table").parse().unwrap();
+    assert!((t - number(&there["t"])).abs() < 1e-12, "{told}");
+}
+
 /// Whatever the structure, the ray meets what it visits, down to leaves that hold the triangle that it hits; what is tested
 /// is in what was visited; and every test says what the oracle says.
 #[test]

@@ -118,6 +118,17 @@ impl Cpu {
 
     /// Renders all samples of a frame; none where `cancel` was raised meanwhile.
     pub fn render_unless(&self, frame: &Frame, cancel: &AtomicBool, progress: Progress<'_>) -> Option<Picture> {
+        self.render_watched(frame, cancel, progress, |_| ())
+    }
+
+    /// As [`Cpu::render_unless`]; `watch` sees the picture after each pass, of which an adaptive one takes several.
+    pub fn render_watched(
+        &self,
+        frame: &Frame,
+        cancel: &AtomicBool,
+        progress: Progress<'_>,
+        mut watch: impl FnMut(&Picture),
+    ) -> Option<Picture> {
         let size = frame.size();
         let mut picture = Picture::unwritten(size.x, size.y);
         let passes = if frame.most_samples != 0 {
@@ -130,6 +141,7 @@ impl Cpu {
             if !self.render_pass(pass, &mut picture, cancel, &of_all) {
                 return None;
             }
+            watch(&picture);
         }
         Some(picture)
     }

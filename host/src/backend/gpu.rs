@@ -1,5 +1,6 @@
 //! The GPU back end: the kernel compiled to SPIR-V, run by wgpu.
 
+mod companion;
 mod device;
 mod failure;
 mod hardship;
@@ -7,6 +8,7 @@ mod kernel;
 mod kernel_error;
 mod kernel_module;
 mod layouts;
+mod pass;
 mod probe;
 mod readback;
 mod resources;
@@ -27,12 +29,14 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use glam::{Vec4, uvec2};
 use layouts::CHOOSE;
+use oktant_shared::adaptive::Mark;
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
 use oktant_shared::parts::Parts;
 use oktant_shared::ray::Ray;
 use oktant_shared::render::sample_ray;
 use oktant_shared::trace::nearest_plane;
+use pass::{Pass, in_rows};
 use readback::Timer;
 use std::sync::Arc;
 use std::time::Instant;
@@ -60,8 +64,6 @@ const RAYS_PER_PIECE: usize = 1 << 18;
 const WHOLE: f64 = 20.0;
 /// Dispatches between two timestamps, one after the other: the start of a pass would count for more than a short kernel.
 const AT_ONCE: u32 = 8;
-/// Workgroups in a row of such a dispatch; the kernel counts on it.
-const LINES_PER_ROW: u32 = 32_768;
 
 impl GpuBackend {
     /// Uploads a scene.
@@ -85,18 +87,18 @@ impl GpuBackend {
     pub fn time_render(&self, frame: &Frame, repeats: u32) -> Result<Vec<f64>, BackendError> {
         let size = frame.size();
         let picture = self.gpu.picture(size.x, size.y, frame.most_samples != 0)?;
-        self.gpu.pipeline(self.scene.entry)?;
         let timer = self.timer()?;
         let passes = if frame.most_samples == 0 {
             vec![*frame]
         } else {
             adaptive::passes(frame, frame.most_samples)
         };
+        let passes: Vec<_> = passes.iter().map(Pass::whole).collect();
         self.timed(repeats, || {
             self.gpu.forget(&picture);
             let mut encoder = self.gpu.encoder();
             self.gpu
-                .encode_passes(&mut encoder, &self.scene, &picture, &passes, size.y, Some(&timer))?;
+                .encode_passes(&mut encoder, &self.scene, &picture, &passes, Some(&timer))?;
             timer.finish(&self.gpu, encoder)
         })
     }
@@ -146,55 +148,28 @@ impl GpuBackend {
         Ok(hits.into_iter().zip(planes).map(nearer).collect())
     }
 
-    /// Camera rays that one dispatch may have, and how many samples of a pixel may be among them.
-    fn budget(&self, frame: &Frame, most: u32) -> (u64, u32) {
-        let size = frame.size();
-        let budget = if self.scene.is_plain {
+    /// Camera rays that one dispatch may have.
+    fn budget(&self) -> u64 {
+        if self.scene.is_plain {
             RAYS_PER_DISPATCH
         } else {
             TREES_PER_DISPATCH
-        };
-        // lavapipe leaves all loops of a pixel when they have taken 65,535 turns together: a sample at a time.
-        let most = if self.gpu.is_software() { 1 } else { most };
-        let pixels = u64::from(size.x) * u64::from(size.y);
-        (budget, (budget / pixels.max(1)).clamp(1, u64::from(most)) as u32)
+        }
     }
 
-    /// The passes of a frame, each with the rows of its band.
-    fn bands(&self, frame: &Frame) -> Vec<(Frame, u32)> {
-        let (width, height) = frame.size().into();
-        let (budget, samples) = self.budget(frame, frame.sample_count);
-        // Whole workgroups: a row of the next band must not be added twice.
-        let rows = (budget / u64::from(width.max(1) * samples)) as u32 / TILE_HEIGHT * TILE_HEIGHT;
-        let rows = rows.clamp(TILE_HEIGHT, height.next_multiple_of(TILE_HEIGHT));
-        let mut bands = Vec::new();
-        for first_sample in (0..frame.sample_count).step_by(samples as usize) {
-            for first_row in (0..height).step_by(rows as usize) {
-                let pass = Frame {
-                    first_sample: frame.first_sample + first_sample,
-                    sample_count: samples.min(frame.sample_count - first_sample),
-                    first_row,
-                    ..*frame
-                };
-                bands.push((pass, rows.min(height - first_row)));
-            }
-        }
-        bands
+    /// The passes of a frame, a band of the picture each.
+    fn bands(&self, frame: &Frame) -> Vec<Pass> {
+        Pass::bands(frame, self.budget(), self.gpu.most_at_once(frame.sample_count))
     }
 
     /// The passes of a frame that is sampled adaptively.
-    fn adaptive_passes(&self, frame: &Frame) -> Vec<(Frame, u32)> {
-        let (budget, samples) = self.budget(frame, frame.most_samples);
+    fn adaptive_passes(&self, frame: &Frame) -> Vec<Pass> {
         let mut passes = Vec::new();
-        for pass in adaptive::passes(frame, samples) {
+        for pass in adaptive::passes(frame, self.gpu.most_at_once(frame.most_samples)) {
             if pass.is_listed == 0 {
                 passes.extend(self.bands(&pass));
             } else {
-                let pixels = (budget / u64::from(pass.sample_count)).min(u64::from(u32::MAX)) as u32;
-                passes.extend(adaptive::parts(&pass, pixels).into_iter().map(|part| {
-                    let rows = pixels.div_ceil(part.size().x.max(1)).min(part.size().y);
-                    (part, rows)
-                }));
+                passes.extend(Pass::parts(&pass, self.budget()));
             }
         }
         passes
@@ -271,12 +246,9 @@ impl Cast<'_> {
         pass.set_bind_group(0, &self.scene.group, &[]);
         pass.set_bind_group(1, &self.frame, &[]);
         pass.set_bind_group(2, &piece.group, &[]);
+        let [x, y] = in_rows(piece.workgroups);
         for _ in 0..times {
-            pass.dispatch_workgroups(
-                piece.workgroups.min(LINES_PER_ROW),
-                piece.workgroups.div_ceil(LINES_PER_ROW),
-                1,
-            );
+            pass.dispatch_workgroups(x, y, 1);
         }
     }
 }
@@ -296,10 +268,14 @@ impl Backend for GpuBackend {
         } else {
             self.bands(frame)
         };
-        for (done, (pass, rows)) in (1..).zip(&passes) {
+        for pass in &passes {
+            // What cannot be rendered is said before anything is.
+            self.gpu.pipeline(self.scene.entry_for(&pass.frame))?;
+        }
+        for (done, pass) in (1..).zip(passes.chunks(1)) {
             let mut encoder = self.gpu.encoder();
             self.gpu
-                .encode_passes(&mut encoder, &self.scene, &picture, &[*pass], *rows, None)?;
+                .encode_passes(&mut encoder, &self.scene, &picture, pass, None)?;
             self.gpu.queue.submit([encoder.finish()]);
             self.gpu.wait()?;
             progress("rendering", done as f32 / passes.len() as f32);
@@ -370,36 +346,43 @@ impl Gpu {
     ) -> Result<f64, BackendError> {
         let mut encoder = self.encoder();
         let timer = if self.is_software() { None } else { Timer::new(self) };
-        let (pass, rows) = ([*frame], picture.height);
+        let pass = [Pass::whole(frame)];
         if let Some(timer) = timer {
-            self.encode_passes(&mut encoder, scene, picture, &pass, rows, Some(&timer))?;
+            self.encode_passes(&mut encoder, scene, picture, &pass, Some(&timer))?;
             timer.finish(self, encoder)
         } else {
             // Not to be counted, should they be made only now.
-            self.pipeline(scene.entry)?;
+            self.pipeline(scene.entry_for(frame))?;
             if adaptive::makes_list(frame) {
                 self.pipeline(CHOOSE)?;
             }
             let start = Instant::now();
-            self.encode_passes(&mut encoder, scene, picture, &pass, rows, None)?;
+            self.encode_passes(&mut encoder, scene, picture, &pass, None)?;
             self.queue.submit([encoder.finish()]);
             self.wait()?;
             Ok(start.elapsed().as_secs_f64() * 1e3)
         }
     }
 
-    /// Passes one after the other, each over so many rows of the picture, or over as many pixels of its list.
+    /// Samples of a pixel that a dispatch may take where `most` are wanted.
+    pub(crate) fn most_at_once(&self, most: u32) -> u32 {
+        // lavapipe leaves all loops of a pixel when they have taken 65,535 turns together: a sample at a time.
+        if self.is_software() { 1 } else { most }
+    }
+
+    /// Passes one after the other.
     fn encode_passes(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         scene: &GpuScene,
         picture: &GpuPicture,
-        passes: &[Frame],
-        rows: u32,
+        passes: &[Pass],
         timer: Option<&Timer>,
     ) -> Result<(), BackendError> {
-        let pipeline = self.pipeline(scene.entry)?;
-        for (number, frame) in passes.iter().enumerate() {
+        for (number, pass) in passes.iter().enumerate() {
+            let frame = &pass.frame;
+            let [x, y] = pass.workgroups();
+            let pipeline = self.pipeline(scene.entry_for(frame))?;
             debug_assert_eq!(frame.size(), uvec2(picture.width, picture.height));
             debug_assert!(frame.most_samples == 0 || picture.is_adaptive());
             let frame_group = self.frame_group(frame);
@@ -427,13 +410,7 @@ impl Gpu {
             pass.set_bind_group(1, &frame_group, &[]);
             pass.set_bind_group(2, &picture.group, &[]);
             pass.set_bind_group(3, &scene.appearance, &[]);
-            if frame.is_listed == 0 {
-                pass.dispatch_workgroups(picture.width.div_ceil(TILE), rows.div_ceil(TILE_HEIGHT), 1);
-            } else {
-                // Most find nothing to do, which takes less than asking first how many are needed.
-                let workgroups = (picture.width * rows).div_ceil(TILE * TILE_HEIGHT);
-                pass.dispatch_workgroups(workgroups.min(LINES_PER_ROW), workgroups.div_ceil(LINES_PER_ROW), 1);
-            }
+            pass.dispatch_workgroups(x, y, 1);
         }
         Ok(())
     }
@@ -444,5 +421,13 @@ impl Gpu {
     /// [`BackendError::Failed`] where the device is lost.
     pub fn read_picture(&self, picture: &GpuPicture) -> Result<Vec<Vec4>, BackendError> {
         self.read(&picture.sums)
+    }
+
+    /// What is known of the pixels of a new picture that is sampled adaptively, for tests of what is listed.
+    ///
+    /// # Errors
+    /// [`BackendError::Failed`] where the device is lost.
+    pub fn read_marks(&self, picture: &GpuPicture) -> Result<Vec<Mark>, BackendError> {
+        self.read(&picture.marks)
     }
 }

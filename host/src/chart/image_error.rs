@@ -112,7 +112,8 @@ pub fn image_error(plan: &Plan, progress: Progress<'_>) -> Result<[Figure; 2], M
             for (done, way) in ways.iter().enumerate() {
                 progress("measuring", done as f32 / ways.len() as f32);
                 for (label, view) in &way.views {
-                    let (comparison, milliseconds) = sitter.taken(&mut tracer, view, &wanted, plan.repeats)?;
+                    let comparison = sitter.taken(&mut tracer, view, &wanted)?.comparison;
+                    let milliseconds = sitter.milliseconds(&mut tracer, view, plan.repeats)?;
                     let default = View::default();
                     let record = |error: f64| Record {
                         panel: sitter.name.clone(),

@@ -3,14 +3,17 @@
 use super::plan::MeasureError;
 use crate::bench::Tracer;
 use crate::compare::{Comparison, Shot, compare};
+use crate::effort::Effort;
 use crate::model::Model;
 use crate::oracle::whitted::{Reference, Takes};
+use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::source::Source;
 use crate::structure::StructureOptions;
 use crate::view::View;
 use glam::UVec2;
+use oktant_shared::frame::Frame;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -22,6 +25,15 @@ pub(super) struct Sitter {
     pub view: View,
     reference: Reference,
     size: UVec2,
+}
+
+/// A picture of a back end.
+pub(super) struct Taken {
+    pub picture: Picture,
+    /// How far it is from the one that it should be.
+    pub comparison: Comparison,
+    /// What it took, and what was left out of it.
+    pub effort: Effort,
 }
 
 impl Sitter {
@@ -50,19 +62,26 @@ impl Sitter {
         Ok(Shot::of_picture(&picture.expect("nobody cancels")))
     }
 
-    /// How far a picture of a back end is from the one that it should be, and the shortest of some times that it takes,
-    /// milliseconds.
-    pub fn taken(
-        &self,
-        tracer: &mut Tracer,
-        view: &View,
-        wanted: &Shot,
-        repeats: u32,
-    ) -> Result<(Comparison, f64), MeasureError> {
-        let frame = view.frame(&self.scene, self.size.x, self.size.y);
+    /// The frame of a picture of a back end.
+    pub fn frame(&self, view: &View) -> Frame {
+        view.frame(&self.scene, self.size.x, self.size.y)
+    }
+
+    /// A picture of a back end, beside the one that it should be.
+    pub fn taken(&self, tracer: &mut Tracer, view: &View, wanted: &Shot) -> Result<Taken, MeasureError> {
+        let frame = self.frame(view);
         let picture = tracer.render(&frame)?;
-        let times = tracer.time_render(&frame, repeats)?;
         let (comparison, _) = compare(wanted, &Shot::of_picture(&picture), 0.0).map_err(Box::new)?;
-        Ok((comparison, super::plan::quickest(&times)))
+        Ok(Taken {
+            effort: Effort::new(&picture, Some((&self.scene, &frame))),
+            picture,
+            comparison,
+        })
+    }
+
+    /// The shortest of some times that a picture takes, milliseconds.
+    pub fn milliseconds(&self, tracer: &mut Tracer, view: &View, repeats: u32) -> Result<f64, MeasureError> {
+        let times = tracer.time_render(&self.frame(view), repeats)?;
+        Ok(super::plan::quickest(&times))
     }
 }

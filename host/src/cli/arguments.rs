@@ -117,7 +117,7 @@ pub struct ViewArguments {
     /// a quarter of width and height, then reflections and samples of the first light; where there is time left, so do samples.
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(5..=1000))]
     pub target_ms: u32,
-    /// Whether the panel with all settings is open at first; Tab opens and closes it [default: as it was left, else off].
+    /// Whether the panel with settings is open at first; Tab opens and closes it [default: as it was left, else off].
     #[arg(long, value_enum, value_name = "on|off", hide_possible_values = true)]
     pub panel: Option<SwitchArgument>,
     /// Feed the window from a file instead of a person; docs/viewer.md describes the format.

@@ -46,7 +46,7 @@ pub fn run(arguments: &CastArguments) -> Result<(), Failure> {
         meshes: vec![arguments.mesh.clone()],
         structure: arguments.structure.clone(),
     };
-    let loaded = mesh.load()?;
+    let loaded = mesh.load(&[])?;
     if loaded.scene.plane_count > 0 {
         return Err(Failure {
             sentence: format!(

@@ -8,6 +8,7 @@ use clap::ValueEnum;
 use glam::uvec2;
 use oktant::chart::{
     Figure, Plan, accuracy, chart_name, command_line, depth_error, growth, image_error, memory, octree, peers, range,
+    samples,
 };
 use oktant::mesh_source::MeshSource;
 use oktant::output::TextFile;
@@ -117,7 +118,7 @@ fn kinds(named: Vec<ChartKind>, sources: &[Source], reads: bool) -> Result<Vec<C
     }
     Ok(match (named.is_empty(), has_only_scenes) {
         (false, _) => named,
-        (true, true) => vec![ChartKind::ImageError, ChartKind::DepthError],
+        (true, true) => vec![ChartKind::ImageError, ChartKind::DepthError, ChartKind::Samples],
         (true, false) if reads && sources.is_empty() => Vec::new(),
         (true, false) => ChartKind::value_variants().to_vec(),
     })
@@ -132,6 +133,7 @@ fn measured(kind: ChartKind, plan: &Plan, progress: Progress<'_>) -> Result<Vec<
         ChartKind::Growth => vec![growth(plan, progress)?],
         ChartKind::ImageError => image_error(plan, progress)?.into(),
         ChartKind::DepthError => vec![depth_error(plan, progress)?],
+        ChartKind::Samples => samples(plan, progress)?.into(),
     })
 }
 

@@ -32,7 +32,7 @@ pub fn run(arguments: &RenderArguments, range: &FrameRange) -> Result<(), Failur
     sequence.check(*range.wanted.start(), look.asks_for_pair())?;
     let variant = arguments.variant.map(|variant| variant.0);
     let mut prepared = Prepared::load(mesh, arguments.size, look, variant)?;
-    let mut engine = prepared.engine(mesh, &engine)?;
+    let mut engine = prepared.engine(mesh, look, &engine)?;
     let kept = if frames.overwrite {
         Vec::new()
     } else {

@@ -5,15 +5,14 @@ use super::arguments::InfoArguments;
 use glam::DVec3;
 use oktant::backend::gpu::{Gpu, GpuOptions, compiled_kernel};
 use oktant::costs::Costs;
-use oktant::scene::Memory;
+use oktant::scene::{Features, Memory, Scene};
 use oktant::structure::{Figures, StructureOptions};
 use oktant::tree::BuildPreset;
 use oktant_shared::parts::TraversalKind;
-use oktant_shared::variant::NEEDS;
 use std::fmt::Write;
 
 pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
-    let loaded = arguments.mesh.load()?;
+    let loaded = arguments.mesh.load(&[])?;
     let scene = &loaded.scene;
     let triangles = loaded.triangles.max(1) as f64;
     let statistics = Figures::new(scene.parts.traversal, &scene.nodes);
@@ -29,7 +28,7 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
             loaded.triangles, scene.degenerate, scene.duplicates
         ),
     );
-    let colors = if loaded.has_colors { "colours" } else { "no colours" };
+    let colors = if scene.has_colors { "colours" } else { "no colours" };
     line("vertices", format!("{}, {colors}", loaded.vertices));
     line("box", format!("{} to {}", scene.low, scene.high));
     if loaded.shift != DVec3::ZERO {
@@ -80,11 +79,8 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
             each(memory.traced())
         ),
     );
-    line("needs", needs(scene.needs));
-    line(
-        "variant",
-        format!("{}, of plain, opaque, mirrors and everything", scene.variant),
-    );
+    line("needs", Features::new(scene, &loaded.view).to_string());
+    line("variant", variant(scene));
     let arrays = memory
         .arrays()
         .map(|(name, bytes)| format!("{name} {:.1}", each(bytes)));
@@ -98,7 +94,7 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         ),
     );
     let modules = compiled_kernel();
-    let [standard, others] = modules.each_ref().map(|module| {
+    let [standard, lists, others] = modules.each_ref().map(|module| {
         format!(
             "{} bytes, {} entry points",
             module.words.len() * 4,
@@ -108,7 +104,7 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     line(
         "kernel",
         format!(
-            "{standard}; for other parts {others}; rust-gpu {}",
+            "{standard}; for lists of pixels {lists}; for other parts {others}; rust-gpu {}",
             modules[0].manifest.rust_gpu
         ),
     );
@@ -145,18 +141,14 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     super::print(&text)
 }
 
-/// What the scene has that not every variant of the kernel can.
-fn needs(needs: u32) -> String {
-    let names: Vec<_> = NEEDS
-        .iter()
-        .enumerate()
-        .filter(|(bit, _)| needs >> bit & 1 != 0)
-        .map(|(_, name)| *name)
-        .collect();
-    if names.is_empty() {
-        "one plain material, one light".into()
-    } else {
-        names.join(", ")
+/// What of the kernel's body renders it.
+fn variant(scene: &Scene) -> String {
+    let all = "of plain, opaque, mirrors and everything";
+    let general = "everything, in the general kernel that other parts than the default ones have";
+    match (scene.cpu_variant(), scene.gpu_variant()) {
+        (Some(_), Some(variant)) => format!("{variant}, {all}"),
+        (Some(variant), None) => format!("on the CPU {variant}, {all}; on a GPU {general}"),
+        _ => general.into(),
     }
 }
 

@@ -53,7 +53,7 @@ impl Prepared {
         look: &LookArguments,
         variant: Option<Variant>,
     ) -> Result<Self, Failure> {
-        let loaded = mesh.load()?;
+        let loaded = mesh.load(&look.set)?;
         let size = size.or(loaded.size.map(Size::from)).unwrap_or_else(Size::preferred);
         let origin = Origin {
             focus: loaded.scene.focus,
@@ -78,11 +78,16 @@ impl Prepared {
     ///
     /// # Errors
     /// Of a GPU that was insisted on, and of a scene that cannot be loaded any more.
-    pub fn engine(&mut self, mesh: &MeshArguments, options: &EngineOptions) -> Result<Engine, Failure> {
+    pub fn engine(
+        &mut self,
+        mesh: &MeshArguments,
+        look: &LookArguments,
+        options: &EngineOptions,
+    ) -> Result<Engine, Failure> {
         if self.has_variant {
             return Ok(Engine::new(options, &self.scene)?);
         }
-        let (engine, scene) = Engine::of_any_size(options, &self.scene, || Ok(mesh.compact().load()?.scene))?;
+        let (engine, scene) = Engine::of_any_size(options, &self.scene, || Ok(mesh.compact().load(&look.set)?.scene))?;
         self.scene = scene;
         Ok(engine)
     }
@@ -115,7 +120,7 @@ impl Prepared {
             Seen::new(&frame, &self.scene, |frame| engine.hits(frame))?
         };
         Ok(Rendered {
-            effort: Effort::new(&picture, Some(&frame)),
+            effort: Effort::new(&picture, Some((&self.scene, &frame))),
             mean_samples: if view.adaptive {
                 picture.mean_samples()
             } else {

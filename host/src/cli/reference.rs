@@ -4,11 +4,12 @@ use super::Failure;
 use super::arguments::{RenderArguments, Size};
 use super::progress_bar::ProgressBar;
 use super::render::{check_halves, counted, create, describe, for_view, format, pictures, told};
-use super::scene_source::refused;
+use super::scene_source::{refused, unsettable};
 use oktant::effort::Effort;
 use oktant::oracle::whitted::{Reference, Takes};
 use oktant::seen::Seen;
 use oktant::standpoint::Origin;
+use oktant::viewer::GivenSetting;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -34,7 +35,8 @@ pub fn run(arguments: &RenderArguments, takes: Takes) -> Result<(), Failure> {
     let aovs = files.aov.0.as_slice();
     let mut output = create(files, format, look.asks_for_pair())?;
     let bar = ProgressBar::new();
-    let setting = source.load(&|stage, fraction| bar.show(stage, fraction))?;
+    let mut setting = source.load(&|stage, fraction| bar.show(stage, fraction))?;
+    GivenSetting::put_all(&look.set, &mut setting).map_err(unsettable)?;
     let size = arguments
         .size
         .or(setting.size.map(Size::from))

@@ -57,7 +57,7 @@ pub fn render(order: &Order<'_>) -> Result<(), Failure> {
     output = for_view(output, &prepared.view, |is_pair| create(files, format, is_pair))?;
     let frame = prepared.frame(&prepared.view);
     let output = output.under(cells::layer(files, &prepared.scene, &frame)?);
-    let mut engine = prepared.engine(mesh, &engine)?;
+    let mut engine = prepared.engine(mesh, look, &engine)?;
     let bar = ProgressBar::new();
     let rendered = prepared.render(&mut engine, &prepared.view, aovs, &|stage, fraction| {
         bar.show(stage, fraction);

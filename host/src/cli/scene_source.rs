@@ -8,6 +8,7 @@ use oktant::scene::{Scene, SceneError};
 use oktant::scene_file::SceneFileError;
 use oktant::source::Source;
 use oktant::view::View;
+use oktant::viewer::{GivenSetting, Unsettable};
 use oktant_shared::parts::TraversalKind;
 use std::time::{Duration, Instant};
 
@@ -18,7 +19,6 @@ pub struct Loaded {
     pub size: Option<[u32; 2]>,
     pub triangles: usize,
     pub vertices: usize,
-    pub has_colors: bool,
     pub shift: DVec3,
     pub reading: Duration,
     pub building: Duration,
@@ -30,6 +30,11 @@ pub fn refused(source: Source, error: SceneError) -> Failure {
         Source::Mesh(_) | Source::Several(_) => Failure::from(error),
         Source::Scene(path) => SceneFileError::of_build(&path, error).into(),
     }
+}
+
+/// What is given does not go with what was loaded.
+pub fn unsettable(error: Unsettable) -> Failure {
+    Failure::usage(error.to_string())
 }
 
 impl MeshArguments {
@@ -52,19 +57,20 @@ impl MeshArguments {
         }
     }
 
-    /// Reads the scene and builds its structure, with progress on a terminal.
-    pub fn load(&self) -> Result<Loaded, Failure> {
+    /// Reads the scene, sets what is given of it, and builds its structure, with progress on a terminal.
+    pub fn load(&self, set: &[GivenSetting]) -> Result<Loaded, Failure> {
         // First of all, so that nobody waits for a mesh that is not built upon.
         let options = self.structure.options()?;
         let bar = ProgressBar::new();
         let start = Instant::now();
         let source = self.source()?;
-        let setting = source.load(&|stage, fraction| bar.show(stage, fraction))?;
+        let mut setting = source.load(&|stage, fraction| bar.show(stage, fraction))?;
+        GivenSetting::put_all(set, &mut setting).map_err(unsettable)?;
         let reading = start.elapsed();
         let start = Instant::now();
         let mesh = &setting.model.mesh;
         let (triangles, vertices) = (mesh.triangles.len(), mesh.positions.len());
-        let (has_colors, shift) = (!mesh.colors.is_empty(), mesh.shift);
+        let shift = mesh.shift;
         let scene = Scene::of_model(setting.model, &options, &|stage, fraction| bar.show(stage, fraction))
             .map_err(|error| refused(source, error))?;
         let building = start.elapsed();
@@ -79,7 +85,6 @@ impl MeshArguments {
             size: setting.size,
             triangles,
             vertices,
-            has_colors,
             shift,
             reading,
             building,

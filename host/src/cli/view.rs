@@ -3,8 +3,9 @@
 use super::Failure;
 use super::arguments::{FileArguments, SwitchArgument, ViewArguments};
 use super::render::{Order, render};
+use super::scene_source::unsettable;
 use directories::ProjectDirs;
-use oktant::viewer::{Look, ViewerError, ViewerOptions};
+use oktant::viewer::{LoadError, Look, ViewerError, ViewerOptions};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -20,6 +21,7 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
         source,
         structure: arguments.mesh.structure.options()?,
         look: Look::new(move |view, origin| look.applied_with(file.as_ref(), view, origin)),
+        set: arguments.look.set.clone(),
         size: arguments.size.map(|size| [size.width, size.height]),
         backend: arguments.engine.choice(),
         module: arguments.engine.module(),
@@ -33,6 +35,7 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
     match oktant::viewer::run(options) {
         Ok(()) => Ok(()),
         Err(ViewerError::Script(error)) => Err(Failure::usage(error.to_string())),
+        Err(ViewerError::Load(LoadError::Unsettable(error))) => Err(unsettable(error)),
         Err(ViewerError::NoDisplay(reason)) if arguments.script.is_none() => {
             eprintln!("There is no display to open a window on ({reason}): rendering {PICTURE} instead.");
             render(&Order {

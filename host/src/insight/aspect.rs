@@ -28,6 +28,8 @@ pub enum Aspect {
     References,
     /// Shadow rays of all samples.
     ShadowRays,
+    /// Closest-hit rays of all samples that reflections and refractions ask for: all but the camera's own.
+    RecursionRays,
     /// Closest-hit and shadow rays of all samples.
     Rays,
 }
@@ -43,7 +45,7 @@ pub struct Meaningless {
 
 impl Aspect {
     /// All of them.
-    pub const ALL: [Aspect; 11] = [
+    pub const ALL: [Aspect; 12] = [
         Aspect::Normals,
         Aspect::Ids,
         Aspect::Depth,
@@ -54,6 +56,7 @@ impl Aspect {
         Aspect::LeafFill,
         Aspect::References,
         Aspect::ShadowRays,
+        Aspect::RecursionRays,
         Aspect::Rays,
     ];
 
@@ -70,6 +73,7 @@ impl Aspect {
             Aspect::LeafFill => "leaf-fill",
             Aspect::References => "references",
             Aspect::ShadowRays => "shadow-rays",
+            Aspect::RecursionRays => "recursion-rays",
             Aspect::Rays => "rays",
         }
     }
@@ -94,6 +98,7 @@ impl Aspect {
             },
             Aspect::References => "leaves that refer to the triangle that is hit",
             Aspect::ShadowRays => "shadow rays of the pixel",
+            Aspect::RecursionRays => "rays of the pixel's reflections and refractions",
             Aspect::Rays => "closest-hit and shadow rays of the pixel",
         }
     }
@@ -103,10 +108,16 @@ impl Aspect {
         !matches!(self, Aspect::Normals | Aspect::Ids | Aspect::Barycentrics)
     }
 
+    /// Whether it is told of all samples of a pixel, not of its middle.
+    pub fn is_of_samples(self) -> bool {
+        matches!(self, Aspect::ShadowRays | Aspect::RecursionRays | Aspect::Rays)
+    }
+
     /// The colours of its numbers: one map for what costs time, one for what there is.
     pub fn palette(self) -> Palette {
         match self {
-            Aspect::Steps | Aspect::Tests | Aspect::ShadowRays | Aspect::Rays => Palette::Inferno,
+            Aspect::Steps | Aspect::Tests => Palette::Inferno,
+            _ if self.is_of_samples() => Palette::Inferno,
             _ => Palette::Viridis,
         }
     }

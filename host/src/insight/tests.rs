@@ -3,14 +3,18 @@
 use super::*;
 use crate::balls;
 use crate::bench::count;
-use crate::model::Model;
+use crate::model::{Model, plain_material};
 use crate::progress::silent;
+use crate::sampling::Samples;
+use crate::stereo::{Stereo, StereoMode};
 use crate::structure::StructureOptions;
 use crate::trace::Trace;
 use crate::view::View;
 use glam::{UVec2, Vec3};
+use oktant_shared::material::Material;
 use oktant_shared::parts::TraversalKind;
 use oktant_shared::plane::Plane;
+use oktant_shared::texture::{CHECKERBOARD, Texture};
 
 const SIZE: [u32; 2] = [48, 36];
 
@@ -23,8 +27,12 @@ impl Subject {
     fn new(traversal: TraversalKind, planes: Vec<Plane>) -> Self {
         let mut model = Model::of_mesh(balls::balls());
         model.planes = planes;
+        Subject::of(model, traversal, &View::default())
+    }
+
+    fn of(model: Model, traversal: TraversalKind, view: &View) -> Self {
         let scene = Arc::new(Scene::of_model(model, &StructureOptions::of(traversal), &silent).unwrap());
-        let frame = View::default().frame(&scene, SIZE[0], SIZE[1]);
+        let frame = view.frame(&scene, SIZE[0], SIZE[1]);
         Subject { scene, frame }
     }
 
@@ -142,6 +150,68 @@ fn rays_are_those_of_the_picture() {
     assert!(shadow_rays.iter().any(|number| *number > 0.0));
 }
 
+/// Oracle: before a mirror that fills the picture, each look through a pixel is one ray there and one back, on which nothing is.
+#[test]
+fn a_mirror_is_asked_for_as_often_as_it_is_seen() {
+    let bare = Subject::new(TraversalKind::Octants, Vec::new());
+    let camera = &bare.frame.camera;
+    let mut model = Model::of_mesh(balls::balls());
+    // Squares of some ten pixels, so that adaptive sampling finds something to do, but not everywhere.
+    model.textures.push(Texture {
+        first: 0,
+        width: 0xff_ffff,
+        height: 0,
+        kind: CHECKERBOARD,
+        repeats: 500.0,
+        reserved: [0; 3],
+    });
+    model.materials.push(Material {
+        mirror: Vec3::splat(0.5),
+        diffuse: 0.5,
+        texture: 0,
+        ..plain_material()
+    });
+    model.planes = vec![Plane::new(camera.eye + camera.forward * 1e-2, -camera.forward, 1)];
+    let anaglyph = Some(Stereo::new(StereoMode::Anaglyph));
+    for (samples, adaptive, block, stereo) in [
+        (Samples::One, false, 1, None),
+        (Samples::Four, false, 1, None),
+        (Samples::Four, false, 1, anaglyph),
+        (Samples::Sixteen, true, 1, None),
+        (Samples::Sixteen, true, 1, anaglyph),
+        (Samples::Sixteen, true, 8, None),
+        (Samples::One, true, 8, None),
+    ] {
+        let view = View {
+            samples,
+            adaptive,
+            block,
+            stereo,
+            depth: 1,
+            cutoff: 0.0,
+            ..View::default()
+        };
+        let name = format!("{view:?}");
+        let subject = Subject::of(model.clone(), TraversalKind::Octants, &view);
+        let [recursion, shadow, all] =
+            [Aspect::RecursionRays, Aspect::ShadowRays, Aspect::Rays].map(|aspect| subject.numbers(aspect));
+        for (index, number) in recursion.iter().enumerate() {
+            assert_eq!(2.0 * number + shadow[index], all[index], "{name}, pixel {index}");
+        }
+        let eyes = if stereo.is_some() { 2.0 } else { 1.0 };
+        let [least, greatest] = [f32::min, f32::max].map(|of| recursion.iter().copied().reduce(of).unwrap());
+        if adaptive {
+            assert_eq!(least, if block > 1 { 0.0 } else { eyes }, "{name}");
+            let most = if samples == Samples::One { eyes } else { 17.0 * eyes };
+            assert!(greatest >= most, "{name}: {greatest}");
+        } else {
+            let each = samples.count() as f32 * eyes;
+            assert_eq!([least, greatest], [each, each], "{name}");
+        }
+    }
+    assert!(bare.numbers(Aspect::RecursionRays).iter().all(|number| *number == 0.0));
+}
+
 /// Rays end at planes, and what is seen there is in no leaf.
 #[test]
 fn planes_are_in_no_leaf() {
@@ -198,7 +268,7 @@ fn what_means_nothing_is_refused_and_all_else_is_told() {
 fn whoever_wants_no_more_gets_nothing() {
     let subject = Subject::new(TraversalKind::Octants, Vec::new());
     let cancelled = AtomicBool::new(true);
-    for aspect in [Aspect::Steps, Aspect::LeafFill, Aspect::Rays] {
+    for aspect in [Aspect::Steps, Aspect::LeafFill, Aspect::RecursionRays, Aspect::Rays] {
         let insight = Insight::new(aspect, &subject.scene, &subject.frame, &cancelled, &silent);
         assert_eq!(insight.unwrap(), None, "{aspect}");
     }

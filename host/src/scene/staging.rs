@@ -1,6 +1,6 @@
 //! What of a scene can be changed without building its structure anew.
 
-use super::{Scene, brightest_around};
+use super::Scene;
 use crate::model::{Model, white_light};
 use glam::Vec3;
 use oktant_shared::environment::Environment;
@@ -46,6 +46,16 @@ impl Staging {
         }
     }
 
+    /// Of a model.
+    pub fn of_model(model: &Model) -> Self {
+        Staging {
+            materials: model.materials.clone(),
+            lights: model.lights.clone(),
+            environment: model.environment,
+            ambient: model.ambient,
+        }
+    }
+
     /// Gives it to a model.
     pub fn put_on(&self, model: &mut Model) {
         model.materials.clone_from(&self.materials);
@@ -63,10 +73,7 @@ impl Scene {
         scene.materials.clone_from(&staging.materials);
         scene.set_lights(staging.lights.clone());
         scene.ambient = staging.ambient;
-        if scene.environment != staging.environment {
-            scene.environment = staging.environment;
-            scene.brightest_around = brightest_around(&scene.environment, &scene.textures, &scene.texels);
-        }
+        scene.environment = staging.environment;
         scene.settle();
         scene
     }
@@ -113,6 +120,7 @@ mod tests {
         staging.ambient = Vec3::Y;
         let mut model = Model::of_mesh(balls());
         staging.put_on(&mut model);
+        assert_eq!(Staging::of_model(&model), staging);
         let built = Scene::of_model(model, &StructureOptions::default(), &silent).unwrap();
         let staged = plain.staged(&staging);
         assert_eq!(staged.needs, MIRRORS | LIGHTS);
@@ -123,7 +131,7 @@ mod tests {
         assert_eq!((staged.light, &staged.lights), (built.light, &built.lights));
         assert_eq!(staged.light_count, 1);
         assert_eq!((staged.ambient, staged.environment), (built.ambient, built.environment));
-        assert_eq!(staged.brightest_around, Vec3::splat(3.0));
+        assert_eq!(staged.brightest(&staged.light), built.brightest(&built.light));
         assert_eq!(Staging::of(&staged), staging);
         assert!(Arc::ptr_eq(&staged.nodes, &plain.nodes), "nothing large is copied");
         let again = staged.staged(&Staging::of(&plain));

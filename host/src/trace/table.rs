@@ -4,6 +4,9 @@ use super::{Trace, TracedHit, Vec3Array};
 use comfy_table::{CellAlignment, Table, presets};
 use std::fmt::Write;
 
+/// Hits beyond the first that are told.
+const BEYOND: usize = 6;
+
 /// All of it.
 pub fn table(trace: &Trace) -> String {
     let mut text = String::new();
@@ -26,6 +29,7 @@ pub fn table(trace: &Trace) -> String {
     let _ = writeln!(text, "hit       {}", hit(trace.hit));
     let _ = writeln!(text, "f64       {}", hit(trace.right));
     let _ = writeln!(text, "          {}", trace.verdict);
+    let _ = writeln!(text, "beyond    {}", beyond(&trace.beyond));
     if trace.advanced != 0.0 {
         let _ = writeln!(
             text,
@@ -130,6 +134,21 @@ fn hit(hit: Option<TracedHit>) -> String {
             )
         },
     )
+}
+
+fn beyond(hits: &[TracedHit]) -> String {
+    if hits.is_empty() {
+        return "none".into();
+    }
+    let told = hits.iter().take(BEYOND);
+    let mut words: Vec<String> = told
+        .map(|hit| format!("triangle {}, t = {:?}", hit.triangle, hit.t))
+        .collect();
+    let left = hits.len() - words.len();
+    if left > 0 {
+        words.push(format!("and {left} more"));
+    }
+    words.join("; ")
 }
 
 fn yes(is: bool) -> String {

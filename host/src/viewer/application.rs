@@ -1,7 +1,7 @@
 //! The window: takes events and notices, and leaves the work to others.
 
 use super::draft::{Draft, Paces};
-use super::event::Event;
+use super::event::{Event, Modifiers};
 use super::figures::Figures;
 use super::input::Input;
 use super::kernel_file::KernelFile;
@@ -106,6 +106,8 @@ pub struct Application {
     pub(super) reloads: u64,
     /// Files that were dropped together, as far as they are told of.
     pub(super) dropped: Vec<PathBuf>,
+    /// What was held then, where the window had to ask.
+    pub(super) held_at_drop: Option<Modifiers>,
     /// What was opened before.
     pub(super) recent: Recent,
     /// Whether the person is asked for files.
@@ -191,6 +193,7 @@ impl Application {
             loads: LoadQueue::default(),
             reloads: 0,
             dropped: Vec::new(),
+            held_at_drop: None,
             recent: state.remembered.recent.clone(),
             is_choosing: false,
             kernel,
@@ -320,6 +323,8 @@ impl Application {
             Effect::Add(paths) => self.add_files(paths),
             Effect::Choose { beside } => self.choose_files(beside),
             Effect::Recent(index) => return self.open_recent(index),
+            Effect::Prompt => self.prompt(),
+            Effect::Typed(step) => return self.carry_out(&step, now),
             Effect::SwitchBackend => self.switch_backend(now),
             Effect::ViewSaved(number) => self.keep_view(number),
             Effect::Copy(form) => self.copy_camera(form),

@@ -6,7 +6,7 @@ use crate::tone::{self, Curve};
 use clap::ValueEnum;
 
 /// What every key and every drag does.
-const HELP: [(&str, &str); 22] = [
+const HELP: [(&str, &str); 23] = [
     ("left, right drag", "turn the camera, the light"),
     ("middle, Shift+drag", "pan"),
     ("wheel", "come closer, go away"),
@@ -21,6 +21,7 @@ const HELP: [(&str, &str); 22] = [
     ("T, + -", "next tone curve, brighter, darker"),
     ("L, ] [", "stereo, eyes farther apart, nearer"),
     ("I, Tab, H", "figures, panel, this list on or off"),
+    ("/", "type what is to be set"),
     ("B, O", "CPU or GPU, compare with the oracle"),
     ("V, with Shift", "what pixels cost: next, previous"),
     ("C > <", "cells of the structure, their level"),

@@ -206,6 +206,7 @@ fn key(logical: &WinitKey, physical: PhysicalKey) -> Option<Key> {
         KeyCode::Comma => ',',
         KeyCode::BracketLeft => '[',
         KeyCode::BracketRight => ']',
+        KeyCode::Slash => '/',
         _ => return None,
     }))
 }

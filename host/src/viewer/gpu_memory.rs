@@ -42,7 +42,7 @@ impl GpuMemory {
     }
 
     /// The samples of a pixel that a pass of a frame that is sampled adaptively may have: those of a third of the pixels are
-    /// to be as quick as [`GpuMemory::is_quick`] asks, and software takes one at a time, as in [`Gpu`]'s own passes.
+    /// to be as quick as [`GpuMemory::is_quick`] asks, and software takes one at a time, see [`Gpu::most_at_once`].
     pub fn samples_of_a_pass(
         &mut self,
         gpu: &Arc<Gpu>,
@@ -51,7 +51,7 @@ impl GpuMemory {
     ) -> Result<u32, BackendError> {
         let single = self.upload(gpu, scene)?.paces.time(frame.depth, rays(frame) / 3);
         let quick = GPU_PASS.as_secs_f64() / single.as_secs_f64().max(1e-9);
-        let most = if gpu.is_software() { 1 } else { frame.most_samples };
+        let most = gpu.most_at_once(frame.most_samples);
         Ok((quick as u32).clamp(1, most.max(1)))
     }
 

@@ -57,7 +57,7 @@ const HEADINGS: [(&str, Vec3); 6] = [
     ("down", Vec3::NEG_Y),
 ];
 /// The keys that mean something; of digits the first one and the last.
-pub const KEYS: [&str; 59] = [
+pub const KEYS: [&str; 60] = [
     "F",
     "R",
     "W",
@@ -115,6 +115,7 @@ pub const KEYS: [&str; 59] = [
     "Ctrl+Shift+O",
     "Ctrl+R",
     "Tab",
+    "/",
     "Esc",
     "Escape",
 ];

@@ -2,7 +2,8 @@
 
 use super::ViewerError;
 use super::application::Application;
-use super::event::Event;
+use super::event::{Event, Modifiers};
+use super::held;
 use super::notice::Notice;
 use super::panel::Panel;
 use super::screen::Screen;
@@ -116,7 +117,11 @@ impl ApplicationHandler<Notice> for Application {
             return;
         };
         if let Event::Dropped(paths) = event {
-            // One by one, and all of them before the loop waits again.
+            // One by one, and all of them before the loop waits again; the source is told after that.
+            if self.dropped.is_empty() {
+                let window = self.window.as_ref().filter(|window| !window.has_focus());
+                self.held_at_drop = window.and_then(|window| held::modifiers(window));
+            }
             self.dropped.extend(paths);
             return;
         }
@@ -133,7 +138,15 @@ impl ApplicationHandler<Notice> for Application {
         let now = Instant::now();
         let dropped = std::mem::take(&mut self.dropped);
         if !dropped.is_empty() && self.player.is_none() {
+            let held = self.held_at_drop.take();
+            if let Some(held) = held {
+                self.take_event(&Event::Modifiers(held), now);
+            }
             self.take_event(&Event::Dropped(dropped), now);
+            if held.is_some() {
+                // Nobody will tell that they are let go.
+                self.take_event(&Event::Modifiers(Modifiers::default()), now);
+            }
         }
         let wake = self.next_wake(now);
         if self.quits {

@@ -92,6 +92,10 @@ pub enum Input {
     ToggleFigures,
     /// The panel.
     TogglePanel,
+    /// The panel, with the keyboard in its line for steps.
+    Prompt,
+    /// Carry out a step of a script that was typed there.
+    Typed(String),
     /// Whether the picture is compared with the oracle's.
     ToggleOracle,
     /// Save the picture: into a file, or under the next free name.

@@ -1,6 +1,7 @@
 //! Reading a scene and building its structure beside the window.
 
 use super::accident::caught;
+use super::given::GivenSetting;
 use super::mentioned::mentioned;
 use super::notice::{LoadError, Mailbox, Notice};
 use super::panel::Inventory;
@@ -46,9 +47,9 @@ pub struct Refusal {
     pub stamps: Stamps,
 }
 
-/// Begins to load a source; the mailbox learns how far it is, and gets the scene. `load` is the number under which it
-/// does.
-pub fn load(load: u64, source: Source, structure: StructureOptions, mailbox: &Mailbox) {
+/// Begins to load a source in which `set` is set; the mailbox learns how far it is, and gets the scene. `load` is the number
+/// under which it does.
+pub fn load(load: u64, source: Source, set: Vec<GivenSetting>, structure: StructureOptions, mailbox: &Mailbox) {
     let mailbox = mailbox.clone();
     thread::spawn(move || {
         let throttle = Throttle::new();
@@ -58,7 +59,7 @@ pub fn load(load: u64, source: Source, structure: StructureOptions, mailbox: &Ma
             }
         };
         let began = SystemTime::now();
-        let result = caught(|| arrive(&source, &structure, began, &progress)).unwrap_or_else(|accident| {
+        let result = caught(|| arrive(&source, &set, &structure, began, &progress)).unwrap_or_else(|accident| {
             Err(LoadError::Accident {
                 name: source.to_string(),
                 accident,
@@ -80,11 +81,13 @@ pub fn load(load: u64, source: Source, structure: StructureOptions, mailbox: &Ma
 
 fn arrive(
     source: &Source,
+    set: &[GivenSetting],
     structure: &StructureOptions,
     began: SystemTime,
     progress: Progress<'_>,
 ) -> Result<Box<Arrival>, LoadError> {
-    let setting = source.load(progress)?;
+    let mut setting = source.load(progress)?;
+    GivenSetting::put_all(set, &mut setting)?;
     let stamps = Stamps::new(setting.files, began);
     let (focus, shift) = (setting.model.focus, setting.model.mesh.shift);
     let scene = Scene::of_model(setting.model, structure, progress).map_err(|error| LoadError::Scene {

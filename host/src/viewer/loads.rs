@@ -50,7 +50,14 @@ impl Application {
     fn begin_load(&mut self, load: Option<u64>) {
         if let (Some(load), Some(loading)) = (load, self.loads.loading()) {
             self.building = self.session.structure;
-            loader::load(load, loading.source.clone(), self.building, &self.mailbox);
+            let source = loading.source.clone();
+            // What is opened later has other materials.
+            let set = if source == self.options.source {
+                self.options.set.clone()
+            } else {
+                Vec::new()
+            };
+            loader::load(load, source, set, self.building, &self.mailbox);
             self.redraw();
         }
     }

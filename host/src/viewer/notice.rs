@@ -1,6 +1,7 @@
 //! What the threads tell the window.
 
 use super::accident::Accident;
+use super::given::Unsettable;
 use super::loader::{Arrival, Refusal};
 use super::oracle::Findings;
 use super::panel::Inventory;
@@ -180,6 +181,9 @@ pub enum LoadError {
         /// What is missing.
         source: SceneError,
     },
+    /// What is set does not go with it.
+    #[error(transparent)]
+    Unsettable(#[from] Unsettable),
     /// Reading it panicked.
     #[error("{name}: this could not be read by a mistake in oktant ({accident}); please report it, with the file.")]
     Accident {

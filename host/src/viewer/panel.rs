@@ -11,6 +11,7 @@ mod lights;
 mod materials;
 mod painting;
 mod picture;
+mod prompt;
 mod raster;
 mod sections;
 mod statistics;
@@ -29,6 +30,7 @@ use super::input::Input;
 use super::session::Session;
 use egui::{Context, Order, Pos2, Rect, Theme, ViewportId};
 use egui_winit::State;
+use prompt::Prompt;
 use std::num::NonZero;
 use std::time::{Duration, Instant};
 use winit::window::Window;
@@ -44,6 +46,8 @@ pub struct Panel {
     winit: State,
     /// How wide it is, and which sections are unfolded.
     pub layout: Layout,
+    /// The line for steps.
+    pub prompt: Prompt,
     painting: Painting,
     /// Where it lies, points.
     area: Rect,
@@ -70,7 +74,10 @@ impl Panel {
             options.max_passes = NonZero::<usize>::MIN;
         });
         // Nothing moves on its own: what is idle computes nothing.
-        context.all_styles_mut(|style| style.animation_time = 0.0);
+        context.all_styles_mut(|style| {
+            style.animation_time = 0.0;
+            style.visuals.text_cursor.blink = false;
+        });
         let scale = Some(window.scale_factor() as f32);
         let winit = State::new(
             context.clone(),
@@ -84,6 +91,7 @@ impl Panel {
             context,
             winit,
             layout,
+            prompt: Prompt::default(),
             painting: Painting::default(),
             area: Rect::NOTHING,
             pointer: Pos2::ZERO,
@@ -102,9 +110,9 @@ impl Panel {
     pub fn run(&mut self, window: &Window, facts: &Facts<'_>, now: Instant) -> Vec<Input> {
         let input = self.winit.take_egui_input(window);
         let mut asked = Vec::new();
-        let (layout, area) = (&mut self.layout, &mut self.area);
+        let (layout, prompt, area) = (&mut self.layout, &mut self.prompt, &mut self.area);
         let output = self.context.run_ui(input, |ui| {
-            *area = sections::show(ui, layout, facts, &mut asked);
+            *area = sections::show(ui, layout, prompt, facts, &mut asked);
         });
         self.winit.handle_platform_output(window, output.platform_output);
         let scale = output.pixels_per_point;

@@ -4,6 +4,7 @@ use super::ViewerError;
 use super::adjustment::Adjustment;
 use super::application::Application;
 use super::event::Event;
+use super::grammar::step;
 use super::input::Input;
 use super::layers::Layers;
 use super::notice::Image;
@@ -125,6 +126,30 @@ impl Application {
                     None => Ok(Progress::Waits),
                 };
             }
+            Step::Move(at) => player.queue([Event::PointerMoved { x: at[0], y: at[1] }]),
+            Step::Pin(at) => player.queue(player::pin(*at)),
+            Step::LoseDevice => {
+                let GpuState::Open(gpu) = &self.gpu else {
+                    return Err("no GPU is open; wait for it with: wait settled".into());
+                };
+                gpu.lose();
+                // Whoever does not look never finds out.
+                self.schedule.change(now);
+            }
+            Step::WaitSettled => return wait_for(self.is_settled(now)),
+            Step::WaitFrames(count) => return wait_for(self.figures.frames - since.frames >= *count),
+            Step::WaitSamples(count) => return wait_for(self.is_shown && u64::from(self.samples) >= *count),
+            Step::WaitReloaded => return wait_for(self.reloads > since.reloads),
+            Step::WaitMilliseconds(time) => return wait_for(waited >= Duration::from_millis(*time)),
+            Step::Expect(expectation) => self.expect(expectation)?,
+            step => self.at_once(step, now)?,
+        }
+        Ok(Progress::Done)
+    }
+
+    /// Does a step that is done as soon as it is said.
+    fn at_once(&mut self, step: &Step, now: Instant) -> Result<(), String> {
+        match step {
             Step::Screenshot(path) => self.screenshot(path, now)?,
             Step::Oracle(wanted) => {
                 if self.session.oracle != *wanted {
@@ -145,34 +170,33 @@ impl Application {
                 }
                 self.take_input(Input::See(See::Aspect(*aspect)), now);
             }
-            Step::Move(at) => player.queue([Event::PointerMoved { x: at[0], y: at[1] }]),
-            Step::Pin(at) => player.queue(player::pin(*at)),
             Step::Unpin => self.take_input(Input::See(See::Unpin), now),
             Step::Ask(input) => self.ask(input.clone(), now)?,
             Step::SetMaterial(material) => {
                 let number = material.number(&self.names)?;
                 self.ask(Input::Adjust(Adjustment::Material(number, material.adjustment)), now)?;
             }
-            Step::LoseDevice => {
-                let GpuState::Open(gpu) = &self.gpu else {
-                    return Err("no GPU is open; wait for it with: wait settled".into());
-                };
-                gpu.lose();
-                // Whoever does not look never finds out.
-                self.schedule.change(now);
-            }
             Step::PrintCamera(form) => print(&(self.written_camera(*form) + "\n")),
             Step::Print => print(&self.report(now)),
             Step::PrintSettings => print(&self.settings()),
-            Step::WaitSettled => return wait_for(self.is_settled(now)),
-            Step::WaitFrames(count) => return wait_for(self.figures.frames - since.frames >= *count),
-            Step::WaitSamples(count) => return wait_for(self.is_shown && u64::from(self.samples) >= *count),
-            Step::WaitReloaded => return wait_for(self.reloads > since.reloads),
-            Step::WaitMilliseconds(time) => return wait_for(waited >= Duration::from_millis(*time)),
-            Step::Expect(expectation) => self.expect(expectation)?,
             Step::Quit => self.quits = true,
+            _ => return Err("only scripts take this step; give another one, for example: set fov 30".into()),
         }
-        Ok(Progress::Done)
+        Ok(())
+    }
+
+    /// Carries out a step that was typed in the panel; else says what is wrong with it and what to do.
+    pub(super) fn carry_out(&mut self, line: &str, now: Instant) -> Result<(), String> {
+        match step(line.trim())? {
+            Step::Open(paths) => self.ask(Input::Open(paths), now),
+            Step::Save(path) => self.ask(Input::Save(Some(path)), now),
+            step => self.at_once(&step, now),
+        }?;
+        if let Some(panel) = &mut self.panel {
+            panel.prompt.clear();
+        }
+        self.redraw();
+        Ok(())
     }
 
     pub(super) fn resized(&self, size: [u32; 2]) -> Event {

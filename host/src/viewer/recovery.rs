@@ -24,8 +24,8 @@ impl Recovery {
 }
 
 impl Application {
-    /// Opens a lost GPU again, once; builds a structure that takes less memory, where that may help; else goes on with the
-    /// CPU.
+    /// Opens a lost GPU again, once; builds a structure that takes less memory, where that may help; gives all pixels as many
+    /// samples, where its kernel cannot choose; else goes on with the CPU.
     pub(super) fn gpu_gave_up(&mut self, error: &BackendError, now: Instant) {
         match error {
             BackendError::Lost { .. } if self.is_gpu_sound() => {
@@ -47,6 +47,16 @@ impl Application {
                 );
                 self.tell(sentence, true);
                 self.reload();
+            }
+            _ if error.is_about_lists() => {
+                self.session.view.adaptive = false;
+                let sentence = format!(
+                    "{}: the GPU goes on with samples {} until adaptive ones are chosen again.",
+                    error.what(),
+                    self.session.view.samples.count()
+                );
+                self.tell(sentence, true);
+                self.schedule.change(now);
             }
             _ => self.gpu_failed(error.and_the_cpu_renders(), now),
         }

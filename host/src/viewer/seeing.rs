@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn keys_go_round_what_is_told() {
-        for (traversal, count) in [(TraversalKind::Octants, 11), (TraversalKind::Brute, 7)] {
+        for (traversal, count) in [(TraversalKind::Octants, 12), (TraversalKind::Brute, 8)] {
             let mut seeing = Seeing::new(traversal);
             let mut seen = Vec::new();
             loop {

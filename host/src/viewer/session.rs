@@ -113,6 +113,10 @@ pub enum Effect {
     },
     /// What was opened before is to be loaded: the last is 0.
     Recent(usize),
+    /// The line for steps is to have the keyboard.
+    Prompt,
+    /// A step is to be carried out.
+    Typed(String),
     /// CPU and GPU change places.
     SwitchBackend,
     /// A view was saved under that number.
@@ -245,6 +249,11 @@ impl Session {
                 self.panel = !self.panel;
                 return Effect::Redraw;
             }
+            Input::Prompt => {
+                self.panel = true;
+                return Effect::Prompt;
+            }
+            Input::Typed(step) => return Effect::Typed(step),
             Input::ToggleOracle => {
                 self.oracle = !self.oracle;
                 return Effect::Redraw;

@@ -4,7 +4,7 @@ use super::adjustment::{LightAdjustment, SWITCHES, hue, stereo_name};
 use super::application::Application;
 use super::caption::name;
 use super::session::Session;
-use crate::names::Names;
+use crate::names::{Names, on_one_line};
 use crate::sampling::SampleCount;
 use glam::Vec3;
 use oktant_shared::light::{DIRECTIONAL, Light, POINT};
@@ -22,7 +22,7 @@ impl Steps {
 
     /// A line that no script plays, whatever a file has in its names.
     fn remark(&mut self, text: &str) {
-        self.0.extend(["# ", &text.replace(char::is_control, " "), "\n"]);
+        self.0.extend(["# ", &on_one_line(text), "\n"]);
     }
 }
 

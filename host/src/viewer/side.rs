@@ -60,6 +60,14 @@ impl Application {
         }
     }
 
+    /// Gives the panel's line for steps the keyboard.
+    pub(super) fn prompt(&mut self) {
+        if let Some(panel) = &mut self.panel {
+            panel.prompt.call();
+        }
+        self.redraw();
+    }
+
     /// Shows the material of what is there in the panel, if there is something.
     pub(super) fn pick(&mut self, at: [f64; 2]) {
         let (Some(scene), Some(panel)) = (&self.scene, &mut self.panel) else {

@@ -1,5 +1,6 @@
 //! The work behind the picture, in the window: what pixels tell, cells of the structure, a ray that is pinned.
 
+mod crossings;
 mod desk;
 mod lines;
 mod pinned;

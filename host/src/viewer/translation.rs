@@ -162,6 +162,7 @@ impl Translation {
             Key::Keypad(digit) => return keypad(digit, control),
             Key::Escape => Input::Leave,
             Key::Tab => Input::TogglePanel,
+            Key::Character('/') => Input::Prompt,
             Key::Character('s') if self.modifiers.control => Input::Save(None),
             Key::Character('o') if self.modifiers.control => Input::Choose {
                 beside: self.modifiers.shift,
@@ -374,6 +375,7 @@ mod tests {
             ('c', Some(Input::See(See::NextCells))),
             ('>', Some(Input::See(See::Deeper(1)))),
             ('<', Some(Input::See(See::Deeper(-1)))),
+            ('/', Some(Input::Prompt)),
             ('w', Some(Input::TakeOff)),
             ('u', None),
         ] {

@@ -13,7 +13,7 @@ use crate::compiler::Compiler;
 mod compiler;
 
 /// The crates in the kernel's folder that are compiled with it, each to a module of its own.
-const MODULES: [&str; 2] = ["parts", "probes"];
+const MODULES: [&str; 3] = ["lists", "parts", "probes"];
 
 /// Compiles oktant's kernel to SPIR-V with rust-gpu and writes the module and its manifest.
 ///
@@ -30,8 +30,8 @@ struct Arguments {
     /// Print the module that is there as SPIR-V assembly.
     #[arg(long, group = "mode")]
     disassemble: bool,
-    /// The kernel crate [default: kernel, in oktant's workspace, and the crates kernel/parts and kernel/probes, each of which
-    /// has a folder of its name in --out].
+    /// The kernel crate [default: kernel, in oktant's workspace, and the crates kernel/lists, kernel/parts and
+    /// kernel/probes, each of which has a folder of its name in --out].
     #[arg(long = "crate", value_name = "DIR")]
     crate_dir: Option<PathBuf>,
     /// Where the module and its manifest belong [default: compiled, in the kernel crate].

@@ -9,7 +9,9 @@ use oktant_shared::light::{AREA, DIRECTIONAL};
 use oktant_shared::material::{FRESNEL, PHONG_HIGHLIGHTS, SMOOTH_NORMALS};
 use oktant_shared::orbit::Up;
 use oktant_shared::texture::{CHECKERBOARD, HEIGHT_IMAGE, NO_TEXTURE, SHARED_EXPONENT_IMAGE, SRGB_IMAGE};
+use oktant_tests::stage::{mean, picture};
 use std::fs;
+use std::sync::Arc;
 use tempfile::tempdir;
 
 #[test]
@@ -83,6 +85,27 @@ fn materials_are_as_described() {
     );
     assert_eq!(squares.repeats, 4.0);
     assert_eq!(model.mesh.coordinates.len(), model.mesh.positions.len());
+}
+
+/// Oracle: the numbers that were written, which neither format rounds.
+#[test]
+fn what_is_around_in_an_hdr_file_is_what_is_seen() {
+    let folder = tempdir().unwrap();
+    let (above, below) = (vec3(8.0, 0.5, 2.0), vec3(0.25, 4.0, 1.0));
+    let halves = image::Rgb32FImage::from_fn(8, 4, |_, y| image::Rgb(if y < 2 { above } else { below }.to_array()));
+    halves.save(folder.path().join("sky.hdr")).unwrap();
+    let content = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 10]\nfov = 120\n\
+                   [environment]\nimage = 'sky.hdr'\n[[sphere]]\n";
+    let setting = read_in(&folder, content).unwrap();
+    let scene = Scene::of_model(setting.model, &StructureOptions::default(), &silent).unwrap();
+    let frame = setting.view.frame(&scene, 3, 3);
+    let picture = picture(&Arc::new(scene), &frame);
+    // Between the middles of the image's two rows on either side of the horizon, from 22.5 to 67.5 degrees, nothing is blended.
+    for (row, color) in [(0, above), (2, below)] {
+        for sum in &picture.sums[3 * row..3 * row + 3] {
+            assert!(mean(*sum).distance(color) < 1e-5, "row {row}: {sum}");
+        }
+    }
 }
 
 /// An image is stored as what it is used as: colours, heights, or both.

@@ -45,6 +45,13 @@ fn what_is_copied_renders_the_very_same_picture() {
         assert_same(steps, &of_file, &session.await_picture("saved.png"));
         let differs = agreement(&of_file, &offline(&View::default(), PIXELS));
         assert!(differs < 0.95, "the camera has moved: {differs}");
+        let viewed = [&CPU[..], &["--view", "view.toml"]].concat();
+        run(&session, &viewed, "wait settled\nsave viewed.png");
+        assert_eq!(
+            bytes(&session, "viewed.png"),
+            bytes(&session, "of-file.png"),
+            "{steps}: the window takes the file, too"
+        );
     }
 }
 

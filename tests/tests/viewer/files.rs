@@ -363,6 +363,56 @@ fn a_kernel_that_is_saved_is_read_again() {
     assert!(report.standard_error.contains("the old kernel goes on"), "{report}");
 }
 
+/// The GPU goes on, also where the window begins with adaptive samples.
+#[test]
+#[ignore = "needs a display and a Vulkan driver"]
+fn a_kernel_without_lists_goes_on_with_as_many_samples_everywhere() {
+    let session = Session::new();
+    CompiledKernel::committed().write(session.folder());
+    let view = [
+        "balls",
+        "--backend",
+        "gpu",
+        "--kernel",
+        "oktant.spv",
+        "--size",
+        "320x240",
+    ];
+    let begins = [&view[..], &["--samples", "adaptive:4"]].concat();
+    let mut window = session.start(
+        &begins,
+        "wait settled
+        expect backend gpu
+        expect message no entry point `render_listed_plain`, and there is no lists
+        print settings
+        set samples adaptive:16
+        wait settled
+        expect backend gpu
+        expect message goes on with samples 16
+        print settings
+        screenshot missing.png
+        wait reloaded
+        expect message was read again
+        set samples adaptive:16
+        wait settled
+        expect backend gpu
+        print settings",
+    );
+    session.await_picture("missing.png");
+    CompiledKernel::lists().write(&session.folder().join("lists"));
+    let report = window.finish();
+    let samples = report
+        .standard_output
+        .lines()
+        .filter_map(|line| line.strip_prefix("set samples "));
+    assert_eq!(samples.collect::<Vec<_>>(), ["4", "16", "adaptive:16"], "{report}");
+    assert_eq!(
+        report.standard_error.matches("render_listed_plain").count(),
+        2,
+        "{report}"
+    );
+}
+
 #[test]
 #[ignore = "needs a display and a Vulkan driver"]
 fn a_kernel_without_a_gpu_is_refused() {

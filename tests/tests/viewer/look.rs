@@ -202,6 +202,58 @@ fn the_gpu_refines_in_sight() {
     a_picture_is_refined_in_sight("gpu");
 }
 
+/// What the window shows of an adaptive picture that it has refined, and what `oktant render` makes of the same.
+fn refined_and_rendered(backend: &str, block: &str) -> [Image; 2] {
+    let session = Session::new();
+    let script = format!(
+        "key I
+        wait settled
+        set block {block}
+        set samples adaptive:16
+        wait settled
+        expect backend {backend}
+        screenshot shown.png"
+    );
+    let of_both = ["--backend", backend, "--size", "320x240"];
+    run(&session, &of_both, &script);
+    let render = [
+        "render",
+        "-o",
+        "rendered.png",
+        "--samples",
+        "adaptive:16",
+        "--block",
+        block,
+    ];
+    session.start_with(&[&render[..], &of_both].concat()).finish();
+    let [shown, rendered] = ["shown.png", "rendered.png"].map(|name| session.await_picture(name));
+    let fixed = offline(&View::default(), [320, 240]);
+    assert_ne!(rendered, fixed, "there is something to refine");
+    [shown, rendered]
+}
+
+#[test]
+#[ignore = "needs a display"]
+fn the_cpu_refines_an_adaptive_picture_as_the_command_does() {
+    for block in ["1", "4"] {
+        let [shown, rendered] = refined_and_rendered("cpu", block);
+        let different = shown.pixels().zip(rendered.pixels()).filter(|(a, b)| a != b).count();
+        assert_eq!(different, 0, "block {block}");
+    }
+}
+
+/// The GPU encodes what it shows itself, which rounds otherwise; a file's colours are encoded on the CPU.
+#[test]
+#[ignore = "needs a display and a Vulkan driver"]
+fn the_gpu_refines_an_adaptive_picture_as_the_command_does() {
+    for block in ["1", "4"] {
+        let [shown, rendered] = refined_and_rendered("gpu", block);
+        let different = shown.pixels().zip(rendered.pixels()).filter(|(a, b)| a != b).count();
+        println!("block {block}: {different} pixels are off by 1 of 255");
+        assert_eq!(agreement(&shown, &rendered), 1.0, "block {block}");
+    }
+}
+
 #[test]
 #[ignore = "needs a display"]
 fn keys_change_the_depth() {

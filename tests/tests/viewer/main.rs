@@ -159,6 +159,53 @@ fn pointer_and_keyboard_do_what_the_script_does() {
 }
 
 #[test]
+#[ignore = "needs a display"]
+fn steps_are_typed_and_given() {
+    let session = Session::new();
+    let display = Display::new();
+    run(
+        &session,
+        &["--backend", "cpu", "--size", SIZE],
+        "wait settled
+        set fov 30
+        set material 0 base 1,0,0
+        set azimuth 40
+        key I
+        wait settled
+        screenshot scripted.png",
+    );
+    let wanted = session.await_picture("scripted.png");
+
+    let mut window = session.start(
+        &["--backend", "cpu", "--size", SIZE, "--set", "material 0 base 1,0,0"],
+        "",
+    );
+    display.find_window("oktant");
+    display.key("slash");
+    for step in ["set fov 30", "set azimut 40"] {
+        display.types(step);
+        display.key("Return");
+    }
+    // It stays to be corrected.
+    display.key("Home");
+    for _ in 0.."set azimut".len() {
+        display.key("Right");
+    }
+    display.types("h");
+    display.key("Return");
+    display.key("Escape");
+    display.key("Tab");
+    display.key("i");
+    display.shows("what was typed", &wanted);
+    display.key("Escape");
+    let report = window.finish();
+    assert_eq!(
+        report.standard_error,
+        "\"azimut\" is no setting; did you mean \"azimuth\".\n"
+    );
+}
+
+#[test]
 #[ignore = "needs a display and a Vulkan driver"]
 fn back_ends_change_places_and_the_window_may_be_minimised() {
     let session = Session::new();

@@ -1,6 +1,6 @@
 //! Several meshes at once, what was opened before, and asking for files.
 
-use super::window::{Session, agreement, ended, run};
+use super::window::{Display, Session, agreement, drop_files, ended, run};
 use super::{SIZE, assert_same};
 
 /// A PLY file with a square in the plane `z = 0`, its lower left corner at `x`.
@@ -169,4 +169,35 @@ fn without_a_file_dialog_a_sentence_says_what_to_do() {
         .env("PATH", session.folder());
     let report = ended(&mut command);
     assert_eq!(report.code, Some(0), "{report}");
+}
+
+/// From outside, by the display's own protocol: the window has no keyboard then, and must ask what is held.
+#[test]
+#[ignore = "needs a display"]
+fn files_are_dragged_from_another_program() {
+    let session = with_squares();
+    let [a, b, c] = ["a.ply", "b b.ply", "c.ply"].map(|name| session.folder().join(name));
+    let display = Display::new();
+    let mut window = session.start(&["a.ply", "--backend", "cpu", "--size", SIZE], "");
+    display.find_window("oktant");
+    display.has_title("a.ply - 2 triangles");
+    drop_files(display.id(), &[&b]);
+    display.has_title("b b.ply - 2 triangles");
+    for (key, files, triangles) in [
+        ("shift", &[c.as_path()][..], "4 triangles"),
+        ("ctrl", &[&a, &c], "8 triangles"),
+    ] {
+        display.presses(key, true);
+        drop_files(display.id(), files);
+        display.presses(key, false);
+        display.has_title(triangles);
+    }
+    // Nothing is held any more.
+    drop_files(display.id(), &[&a, &c]);
+    display.has_title("4 triangles");
+    drop_files(display.id(), &[&a]);
+    display.has_title("a.ply - 2 triangles");
+    display.do_to_window("windowfocus");
+    display.key("Escape");
+    window.finish();
 }

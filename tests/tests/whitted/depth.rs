@@ -18,6 +18,22 @@ use oktant_tests::stage::{
 };
 use std::sync::Arc;
 
+/// Two mirrors that face each other, with wide highlights of a light between them: through both there is more to see than any
+/// surface shows.
+fn hall_of_highlights() -> Stage {
+    let mut stage = Stage::default();
+    let silver = stage.material(Material {
+        mirror: Vec3::splat(0.9),
+        specular: Vec3::splat(0.8),
+        exponent: 1.0,
+        ..mirror()
+    });
+    stage.mesh(&quad(vec3(-4.0, -2.0, -3.0), Vec3::X * 8.0, Vec3::Y * 5.0), silver);
+    stage.mesh(&quad(vec3(4.0, -2.0, 3.0), Vec3::X * -8.0, Vec3::Y * 5.0), silver);
+    stage.model.lights = vec![point_light(vec3(0.0, 0.5, 0.0), Vec3::ONE)];
+    stage
+}
+
 /// Two mirrors that face each other, and between them a ball of glass, a block of coloured glass and a matte ball; nothing
 /// in it is brighter than 1.
 fn hall_of_mirrors() -> Stage {
@@ -62,6 +78,32 @@ fn hall(width: u32, height: u32) -> (Arc<Scene>, Frame) {
         camera(vec3(0.3, 0.6, 2.7), vec3(0.0, -0.2, 0.0), 70.0, width, height),
     );
     (scene, frame)
+}
+
+/// Oracle: the deepest picture. What is cut is more than that part of the brightest surface, and no more than that part of the
+/// brightest that is seen through all of them.
+#[test]
+fn what_is_cut_is_bounded_through_highlights() {
+    let scene = hall_of_highlights().build();
+    let eye = camera(vec3(0.3, 0.6, 2.7), vec3(0.0, -0.2, 0.0), 70.0, 48, 36);
+    let deepest = frame(&scene, eye);
+    let full = picture(&scene, &deepest);
+    let [first, through] = [scene.brightest(&deepest.light), scene.brightest_through(&deepest.light)];
+    let (mut exceeds, mut largest) = (false, 0.0_f32);
+    for depth in 0..MAX_DEPTH {
+        let here = picture(&scene, &Frame { depth, ..deepest });
+        for ((full, sum), work) in full.sums.iter().zip(&here.sums).zip(&here.work) {
+            let missing = (mean(*full) - mean(*sum)).abs();
+            assert!(
+                (missing - through * work.z).max_element() <= 1e-5,
+                "depth {depth}: {missing}"
+            );
+            exceeds |= (missing - first * work.z).max_element() > 0.1;
+            largest = largest.max((missing / (through * work.z)).max_element());
+        }
+    }
+    assert!(exceeds, "there is nothing to see through highlights");
+    assert!(largest > 0.3, "the bound is {largest} of what it could be");
 }
 
 /// Oracle: the deepest picture. What is missing or too much at a smaller depth, or with a cut-off, is nowhere more than what

@@ -1,5 +1,6 @@
 //! Choosing and opening the device.
 
+use super::companion::Companion;
 use super::failure::{Failure, Record};
 use super::hardship::Hardship;
 use super::kernel::Kernel;
@@ -46,7 +47,7 @@ pub struct Gpu {
     options: GpuOptions,
     kernel: Arc<Kernel>,
     module: wgpu::ShaderModule,
-    parts: OnceLock<wgpu::ShaderModule>,
+    companions: [OnceLock<wgpu::ShaderModule>; Companion::ALL.len()],
     pipelines: Mutex<HashMap<&'static str, Arc<wgpu::ComputePipeline>>>,
     pub(super) wakefulness: Wakefulness,
     pub(super) hardship: Arc<Hardship>,
@@ -152,7 +153,7 @@ impl Gpu {
             queue,
             options: options.clone(),
             module,
-            parts: OnceLock::new(),
+            companions: Default::default(),
             kernel,
             pipelines: Mutex::default(),
             wakefulness: Wakefulness::default(),
@@ -205,7 +206,7 @@ impl Gpu {
             layouts: self.layouts.clone(),
             options,
             module,
-            parts: OnceLock::new(),
+            companions: Default::default(),
             kernel,
             pipelines: Mutex::default(),
             wakefulness: Wakefulness::default(),
@@ -228,21 +229,22 @@ impl Gpu {
         &self.module
     }
 
-    /// The module that has an entry point: that of other parts is handed to the device on first use.
+    /// The module that has an entry point: one beside the kernel's first is handed to the device on first use.
     ///
     /// # Errors
     /// [`BackendError::Failed`] or [`BackendError::Kernel`] where the driver or naga does not take it.
     pub fn module_with(&self, entry: &str) -> Result<&wgpu::ShaderModule, BackendError> {
-        let Some(parts) = self.kernel.parts_with(entry) else {
+        let Some((companion, words)) = self.kernel.companion_with(entry) else {
             return Ok(&self.module);
         };
-        if let Some(module) = self.parts.get() {
+        let place = &self.companions[companion as usize];
+        if let Some(module) = place.get() {
             return Ok(module);
         }
         let is_own = self.kernel.path().is_none();
-        let module = self.attempt(|| create_module(&self.device, self.passthrough, parts, is_own))?;
+        let module = self.attempt(|| create_module(&self.device, self.passthrough, words, is_own))?;
         let module = module.map_err(|reason| self.failed(&reason))?;
-        Ok(self.parts.get_or_init(|| module))
+        Ok(place.get_or_init(|| module))
     }
 
     /// Whether the device is a program that runs on the CPU.

@@ -1,5 +1,6 @@
 //! A compiled kernel: the one that is part of the program, or one from a file.
 
+use super::companion::Companion;
 use super::kernel_error::KernelError;
 use super::kernel_module::{KernelEntryPoint, KernelManifest, compiled_kernel};
 use super::layouts::{CHOOSE, workgroup};
@@ -20,7 +21,7 @@ const TARGETS: [&str; 3] = [
 /// Name of the manifest that the builder writes beside a kernel.
 const MANIFEST: &str = "manifest.toml";
 
-/// What the host launches or draws with whatever is asked for. What casts rays may be missing until it is needed.
+/// What the host launches or draws with whatever is asked for. The rest may be missing until it is needed.
 const ALWAYS_NEEDED: [&str; 7] = [
     "render_plain",
     "render_opaque",
@@ -53,28 +54,29 @@ impl KernelModule {
 pub struct Kernel {
     /// What renders, shows pictures, and casts rays with the default parts.
     pub(super) module: KernelModule,
-    /// What casts rays with other parts, if there is something.
-    pub(super) parts: Option<KernelModule>,
+    /// What else it has, in the order of [`Companion::ALL`].
+    companions: [Option<KernelModule>; Companion::ALL.len()],
     path: Option<PathBuf>,
 }
 
 impl Kernel {
     /// The one that is part of the program.
     pub fn built_in() -> Self {
-        let [module, parts] = compiled_kernel().map(|module| KernelModule {
+        let [module, lists, parts] = compiled_kernel().map(|module| KernelModule {
             words: module.words,
             entry_points: module.manifest.entry_points,
         });
         Kernel {
             module,
-            parts: Some(parts),
+            companions: [Some(lists), Some(parts)],
             path: None,
         }
     }
 
     /// Reads the kernel in an `.spv` file and holds it against its manifest: the file of the same name that ends in
-    /// `.toml`, else `manifest.toml` in the same folder. If beside it there is a folder `parts` with a file of that name, it
-    /// belongs to the kernel too: what casts rays with other parts than the default ones.
+    /// `.toml`, else `manifest.toml` in the same folder. If beside it there are folders `lists` or `parts` with a file of that
+    /// name, these belong to the kernel too: what renders lists of pixels, and what casts rays with other parts than the
+    /// default ones.
     ///
     /// # Errors
     /// [`KernelError`], see there.
@@ -88,10 +90,16 @@ impl Kernel {
                 });
             }
         }
-        let parts = beside(path);
+        let mut companions = [const { None }; Companion::ALL.len()];
+        for (place, companion) in companions.iter_mut().zip(Companion::ALL) {
+            let file = companion.beside(path);
+            if file.exists() {
+                *place = Some(open(&file)?.0);
+            }
+        }
         let kernel = Kernel {
             module,
-            parts: if parts.exists() { Some(open(&parts)?.0) } else { None },
+            companions,
             path: Some(path.into()),
         };
         ALWAYS_NEEDED.iter().try_for_each(|entry| kernel.check(entry))?;
@@ -106,7 +114,7 @@ impl Kernel {
         let (module, _) = open(path)?;
         Ok(Kernel {
             module,
-            parts: None,
+            companions: [const { None }; Companion::ALL.len()],
             path: Some(path.into()),
         })
     }
@@ -118,37 +126,42 @@ impl Kernel {
 
     /// The files that [`Kernel::read`] looks at, there or not.
     pub fn files(path: &Path) -> Vec<PathBuf> {
-        let parts = beside(path);
-        let files = [path, &parts].map(|module| {
+        let companions = Companion::ALL.map(|companion| companion.beside(path));
+        let modules = companions.iter().map(PathBuf::as_path).chain([path]);
+        let files = modules.map(|module| {
             let [own, common] = manifests(module);
             [module.into(), own, common]
         });
-        files.concat()
+        files.flatten().collect()
     }
 
-    /// The module for other parts, where this entry point is in that one.
-    pub(super) fn parts_with(&self, entry: &str) -> Option<&KernelModule> {
-        let parts = self.parts.as_ref()?;
-        parts.has(entry).then_some(parts)
+    /// The companion that has this entry point, where one has it.
+    pub(super) fn companion_with(&self, entry: &str) -> Option<(Companion, &KernelModule)> {
+        let mut companions = Companion::ALL.into_iter().zip(&self.companions);
+        companions.find_map(|(companion, module)| {
+            let module = module.as_ref().filter(|module| module.has(entry))?;
+            Some((companion, module))
+        })
     }
 
     /// Whether it has this entry point, in workgroups of the size that the host launches.
     ///
     /// # Errors
-    /// [`KernelError::NoEntryPoint`], [`KernelError::NoParts`] and [`KernelError::Workgroup`].
+    /// [`KernelError::NoEntryPoint`], [`KernelError::NoCompanion`] and [`KernelError::Workgroup`].
     pub(super) fn check(&self, entry: &'static str) -> Result<(), KernelError> {
         let path = self.path.clone().unwrap_or_default();
-        if self.parts.is_none() && !ALWAYS_NEEDED.contains(&entry) && !self.module.has(entry) {
-            let parts = beside(&path);
-            return Err(KernelError::NoParts { path, parts, entry });
-        }
-        let path = self.parts_with(entry).map_or(path.clone(), |_| beside(&path));
-        let mut entry_points = self
-            .parts
-            .iter()
-            .chain([&self.module])
-            .flat_map(|module| &module.entry_points);
-        let found = entry_points.find(|found| found.name == entry);
+        let (path, module) = match (self.companion_with(entry), Companion::meant_for(entry)) {
+            (Some((companion, module)), _) => (companion.beside(&path), module),
+            (None, Some(meant)) if !self.module.has(entry) => {
+                let companion = meant.beside(&path);
+                match &self.companions[meant as usize] {
+                    Some(module) => (companion, module),
+                    None => return Err(KernelError::NoCompanion { path, companion, entry }),
+                }
+            }
+            (None, _) => (path, &self.module),
+        };
+        let found = module.entry_points.iter().find(|found| found.name == entry);
         let wanted = workgroup(entry);
         match found.and_then(|found| found.workgroup) {
             None => Err(KernelError::NoEntryPoint { path, entry }),
@@ -191,12 +204,6 @@ fn open(path: &Path) -> Result<(KernelModule, Module), KernelError> {
         })
         .collect();
     Ok((KernelModule { words, entry_points }, module))
-}
-
-/// Where the module for other parts is.
-fn beside(path: &Path) -> PathBuf {
-    let folder = path.parent().unwrap_or(Path::new("")).join("parts");
-    folder.join(path.file_name().unwrap_or_default())
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, KernelError> {

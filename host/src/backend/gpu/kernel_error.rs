@@ -1,5 +1,6 @@
 //! Why a kernel from a file cannot be run.
 
+use super::companion::Companion;
 use oktant_shared::bindings::BINDINGS;
 use std::path::PathBuf;
 
@@ -101,13 +102,13 @@ pub enum KernelError {
     #[error(
         "{}: this kernel has no entry point `{entry}`, and there is no {}; copy that module there, with its manifest, from where \
          the builder wrote it.",
-        path.display(), parts.display()
+        path.display(), companion.display()
     )]
-    NoParts {
+    NoCompanion {
         /// The module.
         path: PathBuf,
-        /// Where the module for other parts would be.
-        parts: PathBuf,
+        /// Where the module that has it would be.
+        companion: PathBuf,
         /// What is missing.
         entry: &'static str,
     },
@@ -136,6 +137,18 @@ pub enum KernelError {
         /// What went wrong.
         reason: String,
     },
+}
+
+impl KernelError {
+    /// Whether all can be rendered but lists of pixels, which only adaptive pictures have.
+    pub fn is_about_lists(&self) -> bool {
+        match self {
+            KernelError::NoEntryPoint { entry, .. }
+            | KernelError::NoCompanion { entry, .. }
+            | KernelError::Workgroup { entry, .. } => Companion::meant_for(entry) == Some(Companion::Lists),
+            _ => false,
+        }
+    }
 }
 
 fn numbered(bindings: Option<u32>) -> String {

@@ -54,12 +54,16 @@ pub struct CompiledModule {
 }
 
 /// The modules of the compiled kernel, all of them part of the program: what renders and casts with the default parts, then
-/// what casts with others.
-pub fn compiled_kernel() -> [CompiledModule; 2] {
-    let files: [(&[u8], &str); 2] = [
+/// what renders lists of pixels, then what casts with other parts.
+pub fn compiled_kernel() -> [CompiledModule; 3] {
+    let files: [(&[u8], &str); 3] = [
         (
             include_bytes!("../../../../kernel/compiled/oktant.spv"),
             include_str!("../../../../kernel/compiled/manifest.toml"),
+        ),
+        (
+            include_bytes!("../../../../kernel/compiled/lists/oktant.spv"),
+            include_str!("../../../../kernel/compiled/lists/manifest.toml"),
         ),
         (
             include_bytes!("../../../../kernel/compiled/parts/oktant.spv"),

@@ -24,7 +24,9 @@ pub struct GpuScene {
     pub(super) planes: Vec<Plane>,
     pub(super) root: Root,
     /// The entry point that renders it.
-    pub(super) entry: &'static str,
+    entry: &'static str,
+    /// The one that renders the pixels of a list.
+    entry_of_lists: &'static str,
     /// Whether it needs one light and one plain material at most.
     pub(super) is_plain: bool,
     /// What a scene in another staging shares with it.
@@ -51,6 +53,15 @@ impl GpuScene {
     /// Whether a scene has the same triangles, in this or another staging.
     pub fn shares(&self, scene: &Scene) -> bool {
         std::ptr::eq(self.kept.nodes.as_ptr(), Arc::as_ptr(&scene.nodes))
+    }
+
+    /// The entry point of a pass.
+    pub(super) fn entry_for(&self, pass: &Frame) -> &'static str {
+        if pass.is_listed == 0 {
+            self.entry
+        } else {
+            self.entry_of_lists
+        }
     }
 }
 
@@ -152,17 +163,18 @@ impl Gpu {
         if bytes > self.hardship.memory {
             return Err(self.out_of_memory("triangles", bytes));
         }
+        let (entry, entry_of_lists) = match scene.gpu_variant() {
+            Some(variant) => (variant.entry_point(), variant.entry_point_of_lists()),
+            None => ("render_general", "render_listed_general"),
+        };
         Ok(GpuScene {
             group,
             appearance: self.group(&self.layouts.appearance, &appearance),
             parts: scene.parts,
             planes: scene.planes.clone(),
             root: scene.root,
-            entry: if scene.parts != Parts::STANDARD {
-                "render_general"
-            } else {
-                scene.variant.entry_point()
-            },
+            entry,
+            entry_of_lists,
             is_plain: scene.is_plain(),
             bytes,
             kept,

@@ -7,9 +7,9 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct ChartArguments {
-    /// Which charts, and what of: any of accuracy, range, octree, memory, growth, image-error and depth-error [default: all of them,
-    /// unless only --from or --peers are given; of scenes alone the last two], and mesh files or built-in meshes, and for the
-    /// last two also scene files [default: bunny].
+    /// Which charts, and what of: any of accuracy, range, octree, memory, growth, image-error, depth-error and samples [default:
+    /// all of them, unless only --from or --peers are given; of scenes alone the last three], and mesh files or built-in meshes,
+    /// and for the last three also scene files [default: bunny].
     #[arg(value_name = "CHART|MESH|SCENE")]
     pub what: Vec<String>,
     /// The folder for the charts, each as SVG, PNG and CSV; it is made where it is missing, files in it are replaced.
@@ -21,7 +21,7 @@ pub struct ChartArguments {
     /// Size of the pictures whose rays are traced, pixels.
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "640x484")]
     pub size: Size,
-    /// Size of the pictures of `image-error` and `depth-error`, pixels.
+    /// Size of the pictures of `image-error`, `depth-error` and `samples`, pixels.
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "64x48")]
     pub pictures: Size,
     /// Measurements of each time, 1 to 10000; the quickest counts.
@@ -56,6 +56,8 @@ pub enum ChartKind {
     Growth,
     /// A picture's error against time, by samples and pattern.
     ImageError,
-    /// A picture's error against depth and cut-off.
+    /// A picture's error, and the bound on it, against depth and cut-off.
     DepthError,
+    /// A picture's error against rays, by samples.
+    Samples,
 }

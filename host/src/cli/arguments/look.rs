@@ -13,6 +13,7 @@ use oktant::stereo::{Stereo, StereoMode};
 use oktant::tone::Curve;
 use oktant::view::{Shading, View};
 use oktant::view_file::ViewFile;
+use oktant::viewer::GivenSetting;
 use oktant_shared::orbit::Up;
 use oktant_shared::whitted::MAX_DEPTH as MAX_TREE_DEPTH;
 use std::path::PathBuf;
@@ -44,8 +45,8 @@ pub struct LookArguments {
     /// How many times a ray may be reflected or refracted, 0 to 16 [default: as the scene says, else 16].
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_TREE_DEPTH)))]
     pub depth: Option<u32>,
-    /// Rays are left out as long as that can change no channel of the output by more than so many steps of 8 bits, up to 255;
-    /// 0: none is [default: as the scene says, else 0.5].
+    /// Rays are left out as long as the brightest that they can meet first can change no channel of the output by more than so
+    /// many steps of 8 bits, up to 255; 0: none is [default: as the scene says, else 0.5].
     #[arg(long, value_name = "STEPS", allow_negative_numbers = true, value_parser = cutoff)]
     pub cutoff: Option<f32>,
     /// Where the camera stands, by a file with a table [camera] as scene files have it, which the viewer copies with
@@ -105,6 +106,10 @@ pub struct LookArguments {
     /// Curve that makes bright light fit the screen; not for EXR files [default: as the scene says, else none].
     #[arg(long, value_enum)]
     pub tone: Option<Curve>,
+    /// What lights, materials or surroundings are to be, with the words that the viewer's scripts have after `set`, for example
+    /// --set "material 0 mirror 0.5"; also "add light" and "remove light N". Any number of times; docs/viewer.md has the names.
+    #[arg(long, value_name = "SETTING", value_parser = GivenSetting::parse)]
+    pub set: Vec<GivenSetting>,
     /// What the environment says of it, which nothing is refused for.
     #[arg(skip)]
     pub environment: Option<Box<LookArguments>>,

@@ -1,8 +1,39 @@
 //! A material by the name that its file gives it.
 
 use super::MaterialAdjustment;
-use crate::names::Names;
-use crate::viewer::grammar::{name, split, unknown};
+use crate::names::{Names, on_one_line};
+use crate::nearest::nearest;
+use crate::viewer::grammar::{name, split};
+
+/// The most names that a message lists, and characters of each: files give any number of any length.
+const LISTED: usize = 12;
+const LONGEST: usize = 40;
+
+/// Whether a name can stand in a step.
+fn can_be_typed(name: &str) -> bool {
+    !name.contains(|character: char| character == '"' || character.is_control())
+}
+
+/// Whether a word in the place of a name is something else: a number or a setting.
+fn is_otherwise_meant(word: &str) -> bool {
+    word.parse::<usize>().is_ok() || MaterialAdjustment::NAMES.contains(&word)
+}
+
+/// What to give for a material, as a list of several has it.
+fn listed(index: usize, name: &str) -> String {
+    if !can_be_typed(name) {
+        return index.to_string();
+    }
+    let short = match name.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &name[..end]),
+        None => name.into(),
+    };
+    if name.is_empty() || name.contains(char::is_whitespace) || is_otherwise_meant(name) {
+        format!("\"{short}\"")
+    } else {
+        short
+    }
+}
 
 /// Something about the material of a name with its new value.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,7 +51,7 @@ impl NamedMaterial {
             return Ok(None);
         };
         let (word, _) = split(rest);
-        if word.is_empty() || word.parse::<usize>().is_ok() || MaterialAdjustment::NAMES.contains(&word) {
+        if word.is_empty() || is_otherwise_meant(word) {
             return Ok(None);
         }
         let (name, rest) = name(rest)?;
@@ -46,19 +77,40 @@ impl NamedMaterial {
                                            is shown that has names"
                     .into(),
             ),
-            [] => {
-                let names: Vec<&str> = named.into_iter().map(|(_, name)| name).collect();
-                Err(unknown(&self.name, "material", &names))
-            }
+            [] => Err(self.unknown(&named)),
             several => {
-                let numbers: Vec<String> = several.iter().map(ToString::to_string).collect();
+                let numbers: Vec<String> = several.iter().take(LISTED).map(ToString::to_string).collect();
+                let more = if several.len() > LISTED { " and so on" } else { "" };
                 Err(format!(
-                    "\"{}\" is the name of several materials; give the number of one: {}",
+                    "\"{}\" is the name of {} materials; give the number of one: {}{more}",
                     self.name,
+                    several.len(),
                     numbers.join(", ")
                 ))
             }
         }
+    }
+
+    /// What is wrong where none of the materials has that name.
+    fn unknown(&self, named: &[(usize, &str)]) -> String {
+        let names: Vec<&str> = named.iter().map(|(_, name)| *name).collect();
+        // Any short name is near to nothing at all.
+        let near = nearest(&self.name, &names).filter(|_| !self.name.is_empty());
+        let what = match named.iter().find(|(_, name)| Some(*name) == near) {
+            Some((_, near)) if can_be_typed(near) => format!("did you mean \"{near}\""),
+            Some((index, near)) => format!("did you mean {index}, the number of \"{}\"", on_one_line(near)),
+            None if named.len() > LISTED => {
+                format!(
+                    "give one of {} names, which the step `print settings` prints",
+                    named.len()
+                )
+            }
+            None => {
+                let listed: Vec<String> = named.iter().map(|(index, name)| listed(*index, name)).collect();
+                format!("give one of {}", listed.join(", "))
+            }
+        };
+        format!("\"{}\" is no material; {what}", self.name)
     }
 }
 
@@ -118,5 +170,60 @@ mod tests {
             let error = wood.number(&given).unwrap_err();
             assert!(error.contains(wanted), "{error}");
         }
+        let many: Vec<String> = (100..200).map(|number| number.to_string()).collect();
+        let many: Vec<Option<&str>> = many.iter().map(|name| Some(name.as_str())).collect();
+        assert!(wood.number(&names(&many)).unwrap_err().contains("one of 100 names"));
+    }
+    /// Oracle: what is suggested names the material, given as it is written there.
+    #[test]
+    fn what_is_suggested_can_be_typed() {
+        let [long, mistaken] = ["wood", "woot"].map(|word| format!("a {}{word}", "very ".repeat(20)));
+        for (given, name, wanted) in [
+            ("wodo\\oak", "wood\\oak", "did you mean \"wood\\oak\""),
+            ("it's", "its'", "did you mean \"its'\""),
+            ("ol\u{308}", "\u{308}ol", "did you mean \"\u{308}ol\""),
+            (
+                mistaken.as_str(),
+                long.as_str(),
+                format!("did you mean \"{long}\"").as_str(),
+            ),
+            ("oldwood", "old\nwood", "did you mean 1, the number of \"old wood\""),
+            ("old wood", "\"old wood", "did you mean 1, the number of \"\"old wood\""),
+            ("xylophone", "7", "give one of glass-like, \"7\""),
+            ("xylophone", "mirror", "give one of glass-like, \"mirror\""),
+            ("xylophone", "two words", "give one of glass-like, \"two words\""),
+            ("xylophone", "\"quoted\"", "give one of glass-like, 1"),
+            ("xylophone", "two\nlines", "give one of glass-like, 1"),
+        ] {
+            let names = Names {
+                materials: vec![Some("glass-like".into()), Some(name.into())],
+                environment: None,
+            };
+            let number = |material: &str| {
+                let named = NamedMaterial::parse(&format!("material {material} ior 1.5")).unwrap();
+                named.map_or_else(|| Ok(material.parse().unwrap()), |named| named.number(&names))
+            };
+            let error = number(&format!("\"{given}\"")).unwrap_err();
+            assert!(error.ends_with(wanted), "{error}");
+            let suggested = wanted
+                .strip_prefix("did you mean ")
+                .or(wanted.strip_prefix("give one of glass-like, "));
+            let suggested = suggested.unwrap().split(", the number of").next().unwrap();
+            assert_eq!(number(suggested), Ok(1), "{error}");
+        }
+    }
+
+    #[test]
+    fn long_names_are_shortened_in_lists() {
+        let names = Names {
+            materials: vec![Some("b".repeat(99))],
+            environment: None,
+        };
+        let wood = NamedMaterial::parse("material wood ior 1.5").unwrap().unwrap();
+        let error = wood.number(&names).unwrap_err();
+        assert!(
+            error.ends_with(&format!("give one of {}...", "b".repeat(LONGEST))),
+            "{error}"
+        );
     }
 }

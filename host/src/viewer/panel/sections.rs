@@ -2,6 +2,7 @@
 
 use super::fields::Fields;
 use super::layout::{Layout, Section};
+use super::prompt::Prompt;
 use super::{Facts, files, kernel, lights, materials, picture, statistics, surroundings};
 use crate::viewer::input::Input;
 use egui::{CollapsingHeader, Frame, Panel, Rect, ScrollArea, Ui};
@@ -9,15 +10,16 @@ use egui::{CollapsingHeader, Frame, Panel, Rect, ScrollArea, Ui};
 /// Narrowest and widest, points.
 const WIDTHS: [f32; 2] = [240.0, 600.0];
 
-/// Shows all of them in what is left of a window, and keeps the layout; returns where they lie. What is asked for is added
-/// to `asked`.
-pub fn show(ui: &mut Ui, layout: &mut Layout, facts: &Facts<'_>, asked: &mut Vec<Input>) -> Rect {
+/// Shows all of them in what is left of a window, below the line for steps, and keeps the layout; returns where they lie. What
+/// is asked for is added to `asked`.
+pub fn show(ui: &mut Ui, layout: &mut Layout, prompt: &mut Prompt, facts: &Facts<'_>, asked: &mut Vec<Input>) -> Rect {
     let frame = Frame::side_top_panel(ui.style());
     let shown = Panel::right("panel")
         .default_size(layout.width.clamp(WIDTHS[0], WIDTHS[1]))
         .size_range(WIDTHS[0]..=WIDTHS[1])
         .frame(frame)
         .show(ui, |ui| {
+            prompt.show(&mut Fields::new(ui, asked));
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 for section in Section::ALL {
                     fold(ui, section, layout, |ui, material| {

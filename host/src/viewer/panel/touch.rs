@@ -11,8 +11,11 @@ impl Panel {
     pub fn take(&mut self, window: &Window, event: &WindowEvent, meaning: Option<&Event>, is_open: bool) -> bool {
         let scale = window.scale_factor();
         let is_key = matches!(event, WindowEvent::KeyboardInput { .. } | WindowEvent::Ime(_));
-        if is_key && !(is_open && self.context.egui_wants_keyboard_input()) {
+        if is_key && !(is_open && self.has_keyboard()) {
             return false;
+        }
+        if is_key {
+            self.press(meaning);
         }
         let is_pointer = meaning.is_some_and(|event| self.claims(event, scale, is_open));
         let _ = self.winit.on_window_event(window, event);
@@ -28,7 +31,13 @@ impl Panel {
             return false;
         }
         let is_claimed = match event {
-            Event::Key(_) => self.context.egui_wants_keyboard_input(),
+            Event::Key(_) => {
+                let is_claimed = self.has_keyboard();
+                if is_claimed {
+                    self.press(Some(event));
+                }
+                is_claimed
+            }
             _ => self.claims(event, scale, is_open),
         };
         let at = self.pointer;
@@ -72,6 +81,25 @@ impl Panel {
             _ => {}
         }
         is_claimed
+    }
+
+    /// Whether keys are for something in the panel.
+    fn has_keyboard(&self) -> bool {
+        self.prompt.is_wanted() || self.context.egui_wants_keyboard_input()
+    }
+
+    /// A key is for something in the panel. Esc gives the keyboard back at once: the next key may be there before the panel is
+    /// laid out anew.
+    fn press(&mut self, meaning: Option<&Event>) {
+        self.is_stale = true;
+        if meaning == Some(&Event::Key(Key::Escape)) {
+            self.prompt.close();
+            self.context.memory_mut(|memory| {
+                if let Some(id) = memory.focused() {
+                    memory.surrender_focus(id);
+                }
+            });
+        }
     }
 
     /// Whether an event of the pointer is for the panel alone: a press on it, what follows until the release, and the

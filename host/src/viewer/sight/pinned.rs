@@ -1,5 +1,6 @@
 //! What becomes of the ray of a pixel.
 
+use super::crossings::crossings;
 use crate::backend::Query;
 use crate::bench::{Counts, count_each};
 use crate::insight::shortened;
@@ -25,6 +26,8 @@ use std::fmt::Write;
 pub struct Pinned {
     pixel: [u32; 2],
     found: Option<Found>,
+    /// What lies behind that on the ray's line.
+    further: Vec<Hit>,
     /// What the structure cost.
     counts: Counts,
     /// What it visited, each once.
@@ -44,6 +47,8 @@ struct Found {
     material: u32,
 }
 
+/// Crossings behind the first that the panel tells.
+const FURTHER: usize = 6;
 /// Levels of which the panel says how many cells were visited.
 const LEVELS: u32 = 8;
 
@@ -72,9 +77,14 @@ impl Pinned {
                 material: surface.material_id,
             }
         });
+        let mut further = crossings(scene, &ray);
+        if let Some(found) = &found {
+            further.retain(|crossing| crossing.triangle != found.hit.triangle);
+        }
         Pinned {
             pixel,
             found,
+            further,
             counts: count_each(scene, scene.parts, Query::Closest, &[limited])
                 .into_iter()
                 .sum(),
@@ -128,12 +138,12 @@ impl Pinned {
         add(format!("pinned: the ray of pixel {x}, {y}   Esc: unpin"), Tone::Strong);
         match &self.found {
             Some(Found { hit, normal, material }) => {
-                let what = if hit.triangle & PLANE == 0 {
-                    format!("triangle {}, u {:.4}, v {:.4}", hit.triangle, hit.u, hit.v)
+                let place = if hit.triangle & PLANE == 0 {
+                    format!(", u {:.4}, v {:.4}", hit.u, hit.v)
                 } else {
-                    format!("plane {}", hit.triangle & !PLANE)
+                    String::new()
                 };
-                add(format!("{what}, t {}", hit.t), Tone::Plain);
+                add(format!("{}{place}, t {}", named(hit), hit.t), Tone::Plain);
                 let [x, y, z] = normal.to_array();
                 add(
                     format!("normal {x:.3}, {y:.3}, {z:.3}, material {material}"),
@@ -141,6 +151,12 @@ impl Pinned {
                 );
             }
             None => add("hits nothing".into(), Tone::Plain),
+        }
+        for hit in self.further.iter().take(FURTHER) {
+            add(format!("then {}, t {}", named(hit), hit.t), Tone::Plain);
+        }
+        if self.further.len() > FURTHER {
+            add(format!("then {} more", self.further.len() - FURTHER), Tone::Plain);
         }
         add(
             format!(
@@ -182,6 +198,15 @@ impl Pinned {
             self.counts.triangle_tests,
             self.cells.len()
         )
+    }
+}
+
+/// What was hit.
+fn named(hit: &Hit) -> String {
+    if hit.triangle & PLANE == 0 {
+        format!("triangle {}", hit.triangle)
+    } else {
+        format!("plane {}", hit.triangle & !PLANE)
     }
 }
 
@@ -264,12 +289,54 @@ mod tests {
                 let trace = Trace::new(&mesh, &scene, &ray);
                 let found = pinned.found.map(|found| (found.hit.triangle, f64::from(found.hit.t)));
                 assert_eq!(found, trace.hit.map(|hit| (hit.triangle, hit.t)), "{pixel:?}");
+                let further: Vec<u32> = pinned.further.iter().map(|hit| hit.triangle).collect();
+                let beyond: Vec<u32> = trace.beyond.iter().map(|hit| hit.triangle).collect();
+                assert_eq!(further, beyond, "{pixel:?}");
                 assert_eq!(pinned.counts.triangle_tests as usize, trace.tests.len());
                 assert_eq!(pinned.cells.len(), trace.visits.len(), "none is visited twice");
                 hits += usize::from(trace.hit.is_some());
             }
             assert!((1..4).contains(&hits), "{traversal}: {hits}");
         }
+    }
+
+    #[test]
+    fn what_is_behind_the_hit_is_told_up_to_six() {
+        let at = |triangle: u32| Hit {
+            t: 1.0 + 0.5 * triangle as f32,
+            triangle,
+            u: 0.0,
+            v: 0.0,
+        };
+        let behind = |further: Vec<Hit>| -> Vec<String> {
+            let pinned = Pinned {
+                pixel: [0, 0],
+                found: Some(Found {
+                    hit: at(0),
+                    normal: Vec3::Z,
+                    material: 0,
+                }),
+                further,
+                counts: Counts::default(),
+                cells: Vec::new(),
+                command: None,
+            };
+            let lines = pinned.lines(80).into_iter().map(|line| line.text);
+            lines.filter(|line| line.starts_with("then ")).collect()
+        };
+        assert!(behind(Vec::new()).is_empty());
+        let plane = Hit {
+            triangle: PLANE | 4,
+            ..at(3)
+        };
+        assert_eq!(
+            behind(vec![at(1), plane]),
+            ["then triangle 1, t 1.5", "then plane 4, t 2.5"]
+        );
+        let six = behind((1..=6).map(at).collect());
+        assert_eq!((six.len(), &*six[5]), (6, "then triangle 6, t 4"));
+        let many = behind((1..=8).map(at).collect());
+        assert_eq!((many.len(), &many[..6], &*many[6]), (7, &six[..], "then 2 more"));
     }
 
     #[test]

@@ -92,7 +92,7 @@ impl PartialEq for Question {
 impl Question {
     /// A question about the picture of a scene in a window of that size. Of the view counts what can change the answer.
     pub fn new(scene: &Arc<Scene>, view: &View, size: [u32; 2], ask: Ask) -> Self {
-        let takes_samples = matches!(ask, Ask::Pixels(Aspect::Rays | Aspect::ShadowRays));
+        let takes_samples = matches!(ask, Ask::Pixels(aspect) if aspect.is_of_samples());
         let view = if takes_samples {
             View {
                 tone: Tone::default(),

@@ -11,8 +11,6 @@ use std::path::{Path, PathBuf};
 /// Writes a script of random steps, the same ones for the same seed.
 pub struct Hand {
     pub(super) random: Rng,
-    /// Whether a GPU may be asked for.
-    pub(super) has_gpu: bool,
     /// Where scenes are.
     folder: PathBuf,
     /// The steps, one a line.
@@ -32,11 +30,10 @@ pub struct Hand {
 }
 
 impl Hand {
-    /// A hand with nothing done but that the first scene was opened, that may ask for a GPU or not; scenes are in the folder.
-    pub fn new(seed: u64, has_gpu: bool, folder: &Path) -> Self {
+    /// A hand with nothing done but that the first scene was opened; scenes are in the folder.
+    pub fn new(seed: u64, folder: &Path) -> Self {
         Hand {
             random: Rng::with_seed(seed),
-            has_gpu,
             folder: folder.into(),
             script: String::new(),
             inputs: 0,

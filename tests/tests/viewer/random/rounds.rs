@@ -20,11 +20,15 @@ enum Kind {
     Devices,
 }
 
+/// The order in which they take turns.
+const KINDS: [Kind; 4] = [Kind::Settings, Kind::Panel, Kind::Settings, Kind::Devices];
+
 impl Hand {
     /// A round of each kind, and the largest scenes.
     pub fn warms_up(&mut self) {
         self.settles();
-        for kind in self.kinds() {
+        self.meets_kernels();
+        for kind in KINDS {
             self.round(kind, ROUND / 2);
         }
         for step in ["set backend cpu", "panel off", "resize 160 120"] {
@@ -36,19 +40,35 @@ impl Hand {
         }
     }
 
+    /// Has the first scene rendered by each kernel: what the driver makes of one it keeps.
+    fn meets_kernels(&mut self) {
+        self.does("resize 160 120");
+        self.does("set backend gpu");
+        for need in [
+            "set traversal octants",
+            "add light",
+            "set material 0 mirror 0.5,0.5,0.5",
+            "set material 0 transmission 0.5,0.5,0.5",
+            "set traversal octree",
+        ] {
+            self.does(need);
+            for samples in ["1", "adaptive:4"] {
+                self.does(format!("set samples {samples}"));
+                self.settles();
+            }
+        }
+        self.does("set backend cpu");
+        self.does("set traversal octants");
+    }
+
     /// The next round; kinds take turns.
     pub fn next_round(&mut self) {
-        let kinds = self.kinds();
-        self.round(kinds[self.rounds % kinds.len()], ROUND);
+        self.round(KINDS[self.rounds % KINDS.len()], ROUND);
         self.rounds += 1;
     }
 
-    fn kinds(&self) -> [Kind; 4] {
-        let last = if self.has_gpu { Kind::Devices } else { Kind::Panel };
-        [Kind::Settings, Kind::Panel, Kind::Settings, last]
-    }
-
-    /// A last scene with random settings, which stay; no flight, nothing pinned, no list on top.
+    /// A last scene with random settings, which stay, on the CPU, with as many samples as pixels need; no flight, nothing pinned, no
+    /// list on top.
     pub fn last_round(&mut self) {
         self.does(CLOSES_THE_LIST);
         self.opens(LAST);
@@ -78,12 +98,30 @@ impl Hand {
         self.does("key F");
         let [right, down] = [(); 2].map(|()| self.random.i32(-20..=20));
         self.does(format!("drag middle {right} {down}"));
-        if self.has_gpu {
-            // A software GPU takes longer over more than a step may.
-            self.does("set samples 4");
-            self.does("set backend gpu");
+        self.does("set backend cpu");
+        for (name, value) in [
+            ("samples", self.one(&["adaptive:4", "adaptive:16"]).into()),
+            ("error", self.number(0.001, 0.1)),
+            ("block", self.one(&["1", "2", "4", "8"]).into()),
+        ] {
+            self.does(format!("set {name} {value}"));
         }
+        self.shows_the_picture();
+    }
+
+    /// The same on a GPU, with as many samples everywhere as a software one can take in the time that a step has.
+    pub fn last_round_on_the_gpu(&mut self) {
+        self.does("set samples 4");
+        self.does("set backend gpu");
+        self.shows_the_picture();
+    }
+
+    /// Waits until nothing but the picture is to be seen, but what keys may have turned on.
+    fn shows_the_picture(&mut self) {
+        self.waits("show picture");
         self.settles();
+        // Warnings go after eight seconds.
+        self.waits("wait milliseconds 8500");
     }
 
     fn round(&mut self, kind: Kind, inputs: usize) {
@@ -91,19 +129,21 @@ impl Hand {
             self.does(step);
         }
         self.traversal = TraversalKind::Octants;
+        if kind != Kind::Devices {
+            // Before the file: a software GPU takes minutes over large ones, and hundreds of MiB.
+            self.does("set backend cpu");
+        }
         self.does(CLOSES_THE_LIST);
-        // A software GPU takes minutes over large ones.
         let is_large = kind == Kind::Settings && self.random.u32(0..4) == 0;
         let name = if is_large { self.one(&LARGE) } else { self.one(&SMALL) };
         self.opens(name);
         match kind {
-            Kind::Settings => self.does("set backend cpu"),
+            Kind::Settings => {}
             Kind::Devices => {
                 self.does("resize 160 120");
                 self.does("set backend gpu");
             }
             Kind::Panel => {
-                self.does("set backend cpu");
                 self.does("resize 520 400");
                 self.does("panel on");
             }

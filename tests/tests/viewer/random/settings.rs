@@ -25,11 +25,12 @@ impl Settings {
         Settings(all.map(|(name, value)| (name.into(), value.into())).collect())
     }
 
-    /// What `oktant render` makes of a scene file that has no materials, lights and surroundings yet, in that size.
-    pub fn rendered(&self, session: &Session, scene: &str, size: &str) -> Image {
-        session.write("wanted.toml", &(self.ambient() + scene + &self.staging()));
+    /// What `oktant render` makes of a scene file that has no materials, lights and surroundings yet, in that size; in files of that name.
+    pub fn rendered(&self, session: &Session, scene: &str, size: &str, name: &str) -> Image {
+        let [scene_file, picture] = ["toml", "png"].map(|kind| format!("wanted-{name}.{kind}"));
+        session.write(&scene_file, &(self.ambient() + scene + &self.staging()));
         let size = size.replace(' ', "x");
-        let mut arguments: Vec<String> = ["render", "wanted.toml", "--size", &size, "-o", "wanted.png"]
+        let mut arguments: Vec<String> = ["render", &scene_file, "--size", &size, "-o", &picture]
             .map(String::from)
             .into();
         let is_adaptive = self
@@ -44,7 +45,7 @@ impl Settings {
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
         println!("oktant {}", arguments.join(" "));
         session.start_with(&arguments).finish();
-        session.await_picture("wanted.png")
+        session.await_picture(&picture)
     }
 
     fn value(&self, name: &str) -> Option<&str> {

@@ -42,11 +42,39 @@ impl Display {
         xdotool(&["key", key]);
     }
 
+    /// Types a text.
+    pub fn types(&self, text: &str) {
+        xdotool(&["type", "--delay", "20", text]);
+    }
+
+    /// Presses a key, or lets it go.
+    pub fn presses(&self, key: &str, is_down: bool) {
+        xdotool(&[if is_down { "keydown" } else { "keyup" }, key]);
+    }
+
+    /// The display's number of the window.
+    pub fn id(&self) -> u32 {
+        self.window.borrow().parse().expect("xdotool prints numbers")
+    }
+
+    /// Waits until the window's title has some words.
+    pub fn has_title(&self, words: &str) {
+        let start = Instant::now();
+        loop {
+            let title = xdotool(&["getwindowname", &self.window.borrow()]);
+            if title.contains(words) {
+                return;
+            }
+            assert!(start.elapsed() < PATIENCE, "{words:?} is not in {title:?}");
+            thread::sleep(Duration::from_millis(50));
+        }
+    }
+
     /// Holds a key down for so many milliseconds.
     pub fn hold(&self, key: &str, milliseconds: u64) {
-        xdotool(&["keydown", key]);
+        self.presses(key, true);
         thread::sleep(Duration::from_millis(milliseconds));
-        xdotool(&["keyup", key]);
+        self.presses(key, false);
     }
 
     /// Presses a button and lets it go; 4 is the wheel turned away from the person.

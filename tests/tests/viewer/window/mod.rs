@@ -1,9 +1,11 @@
 //! Starting the program, looking at its window and reaching into it.
 
 mod display;
+mod dragging;
 mod report;
 
 pub use display::{Display, screen_of};
+pub use dragging::drop_files;
 pub use report::{Report, value_in};
 
 use oktant::backend::Backend;

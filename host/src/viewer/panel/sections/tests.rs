@@ -9,7 +9,7 @@ use crate::viewer::caption::Caption;
 use crate::viewer::figures::Figures;
 use crate::viewer::recent::Recent;
 use crate::viewer::session::Session;
-use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Shape, pos2};
+use egui::{Context, Event, Key, Modifiers, PointerButton, Pos2, RawInput, Shape, pos2};
 use std::time::{Duration, Instant};
 
 const WINDOW: egui::Vec2 = egui::vec2(800.0, 2000.0);
@@ -17,6 +17,7 @@ const WINDOW: egui::Vec2 = egui::vec2(800.0, 2000.0);
 struct Window {
     context: Context,
     layout: Layout,
+    prompt: Prompt,
     figures: Figures,
     recent: Recent,
 }
@@ -38,6 +39,7 @@ impl Window {
         Window {
             context,
             layout,
+            prompt: Prompt::default(),
             figures,
             recent: Recent::default(),
         }
@@ -62,7 +64,7 @@ impl Window {
         let mut asked = Vec::new();
         let mut area = Rect::NOTHING;
         let mut output = self.context.run_ui(input, |ui| {
-            area = show(ui, &mut self.layout, &facts, &mut asked);
+            area = show(ui, &mut self.layout, &mut self.prompt, &facts, &mut asked);
         });
         assert!(area.right() == WINDOW.x && area.width() < 400.0, "{area}");
         output.textures_delta.clear();
@@ -180,4 +182,42 @@ fn what_was_opened_is_opened_with_a_click() {
     assert_eq!(window.click(&session, first), [Input::Recent(1)]);
     assert_eq!(window.click(&session, open), [Input::Choose { beside: false }]);
     assert_eq!(window.click(&session, beside), [Input::Choose { beside: true }]);
+}
+
+#[test]
+fn a_step_is_typed() {
+    let key = |key| Event::Key {
+        key,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    };
+    let typed = |text: &str| Event::Text(text.into());
+    let session = session();
+    let mut window = Window::new();
+    assert_eq!(
+        window.after(&session, vec![typed("nobody asked"), key(Key::Enter)]).0,
+        []
+    );
+    window.prompt.call();
+    // Typed before the line was laid out.
+    assert_eq!(window.after(&session, vec![typed("set fov 3")]).0, []);
+    assert!(window.context.egui_wants_keyboard_input());
+    let step = |text: &str| [Input::Typed(text.into())];
+    assert_eq!(
+        window.after(&session, vec![typed("0"), key(Key::Enter)]).0,
+        step("set fov 30")
+    );
+    assert_eq!(
+        window.after(&session, vec![key(Key::Enter)]).0,
+        step("set fov 30"),
+        "it was refused"
+    );
+    window.prompt.clear();
+    assert_eq!(window.after(&session, vec![key(Key::Enter)]).0, []);
+    window.after(&session, vec![typed("set"), key(Key::Escape)]);
+    assert!(!window.context.egui_wants_keyboard_input());
+    let (_, texts) = window.after(&session, Vec::new());
+    assert!(!texts.iter().any(|(text, _)| text.starts_with("set")), "it is closed");
 }
