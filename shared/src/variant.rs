@@ -20,17 +20,6 @@ pub const MIRRORS: u32 = 32;
 /// Materials that light goes through: rays become trees, know what they are inside of, and shadows have colours.
 pub const GLASS: u32 = 64;
 
-/// The names of the needs, in the order of their bits.
-pub const NEEDS: [&str; 7] = [
-    "several materials",
-    "several lights or areas of light",
-    "planes",
-    "textures or bumps",
-    "image around",
-    "mirrors",
-    "glass",
-];
-
 /// [`Variant::Plain`].
 pub const PLAIN: u32 = 0;
 /// [`Variant::Opaque`].
@@ -135,6 +124,5 @@ mod tests {
         assert_eq!(Variant::least(IMAGE), Variant::Opaque);
         assert_eq!(Variant::least(MIRRORS), Variant::Mirrors);
         assert_eq!(Variant::least(GLASS), Variant::Everything);
-        assert_eq!(EVERYTHING, (1 << NEEDS.len()) - 1, "every need has a name");
     }
 }

@@ -24,7 +24,7 @@ use super::seeing::Seeing;
 use super::session::{Effect, Session};
 use super::showing::Part;
 use super::sight::Sight;
-use super::state::{GpuState, Message, SaveProgress, Work};
+use super::state::{About, GpuState, Message, SaveProgress, Work};
 use super::task::{Destination, Task};
 use super::translation::Translation;
 use super::watcher::Watcher;
@@ -258,11 +258,18 @@ impl Application {
         self.message = Some(Message {
             text,
             is_warning,
-            is_about_load: false,
-            is_about_reload: false,
+            about: About::Other,
             until: Instant::now() + MESSAGE,
         });
         self.redraw();
+    }
+
+    /// Tells the person of what failed; what is done at last of the same kind takes it back.
+    pub(super) fn warn(&mut self, text: String, about: About) {
+        self.tell(text, true);
+        if let Some(message) = &mut self.message {
+            message.about = about;
+        }
     }
 
     pub(super) fn redraw(&self) {
@@ -323,8 +330,8 @@ impl Application {
             Effect::Add(paths) => self.add_files(paths),
             Effect::Choose { beside } => self.choose_files(beside),
             Effect::Recent(index) => return self.open_recent(index),
-            Effect::Prompt => self.prompt(),
-            Effect::Typed(step) => return self.carry_out(&step, now),
+            Effect::Prompt => self.prompt(now),
+            Effect::Typed(step) => self.take_typed(&step, now),
             Effect::SwitchBackend => self.switch_backend(now),
             Effect::ViewSaved(number) => self.keep_view(number),
             Effect::Copy(form) => self.copy_camera(form),
@@ -384,7 +391,7 @@ impl Application {
 }
 
 /// A reason as a sentence.
-fn sentence(reason: &str) -> String {
+pub(super) fn sentence(reason: &str) -> String {
     let mut characters = reason.chars();
     let first = characters.next().map(char::to_uppercase);
     first.into_iter().flatten().chain(characters).chain(['.']).collect()

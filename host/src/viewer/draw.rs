@@ -27,7 +27,7 @@ impl Application {
             return;
         };
         self.update_overlay(now);
-        self.run_panel(&window, now);
+        self.run_panel(now);
         let title = self.title();
         if title != self.title {
             window.set_title(&title);

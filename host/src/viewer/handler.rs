@@ -110,7 +110,7 @@ impl ApplicationHandler<Notice> for Application {
         }
         let meaning = Event::from_winit(&event, self.session.size, self.session.scale);
         // A script is not disturbed by the hand that happens to hold the mouse.
-        let is_taken = self.player.is_none() && self.panel_takes(&event, meaning.as_ref());
+        let is_taken = self.player.is_none() && self.panel_takes(&event, meaning.as_ref(), now);
         // A key that was pressed before the panel took the keyboard is released for all.
         let is_for_all = !is_taken || matches!(meaning, Some(Event::Released(_)));
         let Some(event) = meaning.filter(|_| is_for_all) else {

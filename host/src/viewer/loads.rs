@@ -3,7 +3,7 @@
 use super::application::Application;
 use super::draft::Paces;
 use super::loader::{self, Arrival, Refusal};
-use super::state::Loading;
+use super::state::{About, Loading};
 use crate::scene::Staging;
 use crate::source::Source;
 use crate::standpoint::Origin;
@@ -77,11 +77,8 @@ impl Application {
             Err(refusal) => {
                 let (wanted, tried) = (self.session.structure, self.building);
                 self.session.structure = still_wanted(wanted, tried, self.built, loading.is_reload);
-                self.tell(refusal.error.to_string(), true);
-                if let Some(message) = &mut self.message {
-                    message.is_about_load = true;
-                    message.is_about_reload = loading.is_reload;
-                }
+                let about = if loading.is_reload { About::Reload } else { About::Load };
+                self.warn(refusal.error.to_string(), about);
                 if loading.is_reload {
                     self.watcher.watch_also(refusal.stamps);
                 }
@@ -136,7 +133,7 @@ impl Application {
         self.watcher.watch(arrival.stamps);
         // What is read again says nothing of another file that was refused.
         self.message
-            .take_if(|message| message.is_about_load && (!loading.is_reload || message.is_about_reload));
+            .take_if(|message| message.about == About::Reload || (message.about == About::Load && !loading.is_reload));
         if is_staged {
             self.schedule.change(now);
         } else {

@@ -2,7 +2,7 @@
 
 use super::ViewerError;
 use super::adjustment::Adjustment;
-use super::application::Application;
+use super::application::{Application, sentence};
 use super::event::Event;
 use super::grammar::step;
 use super::input::Input;
@@ -10,7 +10,7 @@ use super::layers::Layers;
 use super::notice::Image;
 use super::player::{self, Counts, PATIENCE};
 use super::seeing::See;
-use super::state::GpuState;
+use super::state::{About, GpuState};
 use super::step::{Expectation, Step};
 use crate::output::PictureFile;
 use std::io::Write;
@@ -186,17 +186,24 @@ impl Application {
     }
 
     /// Carries out a step that was typed in the panel; else says what is wrong with it and what to do.
-    pub(super) fn carry_out(&mut self, line: &str, now: Instant) -> Result<(), String> {
-        match step(line.trim())? {
-            Step::Open(paths) => self.ask(Input::Open(paths), now),
-            Step::Save(path) => self.ask(Input::Save(Some(path)), now),
-            step => self.at_once(&step, now),
-        }?;
+    pub(super) fn take_typed(&mut self, line: &str, now: Instant) {
+        if let Err(reason) = self.carry_out(line, now) {
+            self.warn(sentence(&reason), About::Step);
+            return;
+        }
+        self.message.take_if(|message| message.about == About::Step);
         if let Some(panel) = &mut self.panel {
             panel.prompt.clear();
         }
         self.redraw();
-        Ok(())
+    }
+
+    fn carry_out(&mut self, line: &str, now: Instant) -> Result<(), String> {
+        match step(line.trim())? {
+            Step::Open(paths) => self.ask(Input::Open(paths), now),
+            Step::Save(path) => self.ask(Input::Save(Some(path)), now),
+            step => self.at_once(&step, now),
+        }
     }
 
     pub(super) fn resized(&self, size: [u32; 2]) -> Event {

@@ -6,17 +6,20 @@ use super::panel::Facts;
 use super::pick::material_at;
 use super::remembered::Remembered;
 use std::time::Instant;
-use winit::event::WindowEvent;
-use winit::window::Window;
+use winit::event::{ElementState, WindowEvent};
 
 impl Application {
     /// Lets the panel have an event of the window's; whether it is for nobody else.
-    pub(super) fn panel_takes(&mut self, event: &WindowEvent, meaning: Option<&Event>) -> bool {
+    pub(super) fn panel_takes(&mut self, event: &WindowEvent, meaning: Option<&Event>, now: Instant) -> bool {
         let (Some(window), Some(panel)) = (&self.window, &mut self.panel) else {
             return false;
         };
         let is_taken = panel.take(window, event, meaning, self.session.panel);
-        self.redraw_stale_panel();
+        let may_turn = match event {
+            WindowEvent::KeyboardInput { event, .. } => is_taken && event.state == ElementState::Pressed,
+            event => matches!(event, WindowEvent::MouseInput { .. }),
+        };
+        self.heed_panel(may_turn, now);
         is_taken
     }
 
@@ -26,23 +29,36 @@ impl Application {
         let scale = self.session.scale;
         let panel = self.panel.as_mut();
         let is_taken = panel.is_some_and(|panel| panel.take_played(event, scale, is_open));
-        self.redraw_stale_panel();
+        let may_turn = match event {
+            Event::Key(_) => is_taken,
+            event => matches!(event, Event::Button { .. }),
+        };
+        self.heed_panel(may_turn, now);
         if !is_taken {
             self.take_event(event, now);
         }
     }
 
-    fn redraw_stale_panel(&self) {
-        if self.panel.as_ref().is_some_and(|panel| panel.is_stale()) {
+    /// Sees to it that the panel shows what has happened to it. What may have given the keyboard to another is heeded before
+    /// anything else happens: the next key may be there before the window is drawn, and is another's then; and egui's fields
+    /// drop what follows an Enter that they are told with it.
+    fn heed_panel(&mut self, may_turn: bool, now: Instant) {
+        if !self.session.panel {
+            return;
+        }
+        if may_turn {
+            self.run_panel(now);
+        }
+        if may_turn || self.panel.as_ref().is_some_and(|panel| panel.is_stale()) {
             self.redraw();
         }
     }
 
     /// Lays the panel out, if it is open, and does what it asks for.
-    pub(super) fn run_panel(&mut self, window: &Window, now: Instant) {
-        if !self.session.panel {
+    pub(super) fn run_panel(&mut self, now: Instant) {
+        let (true, Some(window)) = (self.session.panel, self.window.clone()) else {
             return;
-        }
+        };
         let Some(mut panel) = self.panel.take() else { return };
         let facts = Facts {
             session: &self.session,
@@ -53,7 +69,7 @@ impl Application {
             figures: &self.figures,
             caption: self.caption(now),
         };
-        let asked = panel.run(window, &facts, now);
+        let asked = panel.run(&window, &facts, now);
         self.panel = Some(panel);
         for input in asked {
             self.take_input(input, now);
@@ -61,11 +77,11 @@ impl Application {
     }
 
     /// Gives the panel's line for steps the keyboard.
-    pub(super) fn prompt(&mut self) {
+    pub(super) fn prompt(&mut self, now: Instant) {
         if let Some(panel) = &mut self.panel {
             panel.prompt.call();
         }
-        self.redraw();
+        self.heed_panel(true, now);
     }
 
     /// Shows the material of what is there in the panel, if there is something.

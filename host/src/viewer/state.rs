@@ -47,11 +47,21 @@ pub struct Loading {
 pub struct Message {
     pub text: String,
     pub is_warning: bool,
-    /// Whether it says why something was not loaded, and is no longer true when something is.
-    pub is_about_load: bool,
-    /// Whether that something is what is shown, which was to be read again.
-    pub is_about_reload: bool,
+    pub about: About,
     pub until: Instant,
+}
+
+/// What a message is about: done at last, it makes what is said of its failure untrue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum About {
+    /// A file that was to be shown.
+    Load,
+    /// What is shown, which was to be read again.
+    Reload,
+    /// A step that was typed.
+    Step,
+    /// Anything else, which stays true.
+    Other,
 }
 
 /// What is known of the GPU.

@@ -183,6 +183,20 @@ fn an_idle_panel_draws_nothing() {
 
 #[test]
 #[ignore = "needs a display"]
+fn a_pointer_that_passes_draws_nothing() {
+    let session = Session::new();
+    let moves: String = (1..=20)
+        .map(|step| format!("move {} {}\n", 20 * step, 15 * step))
+        .collect();
+    let script = format!("wait settled\nwait milliseconds 500\nprint\n{moves}wait milliseconds 300\nprint");
+    let report = run(&session, &["--backend", "cpu", "--size", SIZE], &script);
+    let (before, after) = report.standard_output.split_at(report.standard_output.len() / 2);
+    let drawn = |text| value_in(text, "drawn");
+    assert_eq!(drawn(before), drawn(after), "{report}");
+}
+
+#[test]
+#[ignore = "needs a display"]
 fn settings_that_make_no_sense_are_refused() {
     let session = Session::new();
     let start = |script: &str| session.start(&["--backend", "cpu", "--size", SIZE], script).wait();

@@ -27,11 +27,6 @@ impl Prompt {
         *self = Prompt::default();
     }
 
-    /// Whether it waits to be laid out to get the keyboard.
-    pub fn is_wanted(&self) -> bool {
-        self.is_wanted
-    }
-
     /// What was typed is done.
     pub fn clear(&mut self) {
         self.text.clear();

@@ -14,9 +14,7 @@ impl Panel {
         if is_key && !(is_open && self.has_keyboard()) {
             return false;
         }
-        if is_key {
-            self.press(meaning);
-        }
+        self.is_stale |= is_key;
         let is_pointer = meaning.is_some_and(|event| self.claims(event, scale, is_open));
         let _ = self.winit.on_window_event(window, event);
         if !is_open {
@@ -31,13 +29,7 @@ impl Panel {
             return false;
         }
         let is_claimed = match event {
-            Event::Key(_) => {
-                let is_claimed = self.has_keyboard();
-                if is_claimed {
-                    self.press(Some(event));
-                }
-                is_claimed
-            }
+            Event::Key(_) => self.has_keyboard(),
             _ => self.claims(event, scale, is_open),
         };
         let at = self.pointer;
@@ -85,21 +77,7 @@ impl Panel {
 
     /// Whether keys are for something in the panel.
     fn has_keyboard(&self) -> bool {
-        self.prompt.is_wanted() || self.context.egui_wants_keyboard_input()
-    }
-
-    /// A key is for something in the panel. Esc gives the keyboard back at once: the next key may be there before the panel is
-    /// laid out anew.
-    fn press(&mut self, meaning: Option<&Event>) {
-        self.is_stale = true;
-        if meaning == Some(&Event::Key(Key::Escape)) {
-            self.prompt.close();
-            self.context.memory_mut(|memory| {
-                if let Some(id) = memory.focused() {
-                    memory.surrender_focus(id);
-                }
-            });
-        }
+        self.context.egui_wants_keyboard_input()
     }
 
     /// Whether an event of the pointer is for the panel alone: a press on it, what follows until the release, and the
@@ -113,14 +91,11 @@ impl Panel {
                 false
             }
             Event::Button { pressed: true, .. } => {
-                // One that is pressed elsewhere closes what is unfolded.
-                self.is_stale |= is_open;
                 let is_claimed = was_covered || self.held > 0;
                 self.held += u32::from(is_claimed);
                 is_claimed
             }
             Event::Button { pressed: false, .. } => {
-                self.is_stale |= is_open;
                 let is_claimed = self.held > 0;
                 self.held = self.held.saturating_sub(1);
                 is_claimed

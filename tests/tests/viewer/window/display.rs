@@ -1,6 +1,7 @@
 //! The display server: its pointer, its keyboard and what it shows. Needs xdotool and ImageMagick.
 
 use super::{Image, PATIENCE, agreement};
+use std::io::Write;
 use std::process::Command;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -42,9 +43,11 @@ impl Display {
         xdotool(&["key", key]);
     }
 
-    /// Types a text.
-    pub fn types(&self, text: &str) {
-        xdotool(&["type", "--delay", "20", text]);
+    /// Calls many xdotool commands, each on a line, without a pause between them.
+    pub fn hurries(&self, commands: &str) {
+        let mut file = tempfile::NamedTempFile::new().expect("a temporary file");
+        file.write_all(commands.as_bytes()).expect("it is written");
+        xdotool(&[&file.path().display().to_string()]);
     }
 
     /// Presses a key, or lets it go.
