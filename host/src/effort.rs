@@ -18,12 +18,12 @@ pub struct Effort {
     /// The weight of the rays that were not followed, in the pixel where it is greatest: what is missing there is at most
     /// this part of the brightest light that a ray can see ([`Scene::brightest_through`]).
     pub greatest_cut: f64,
-    /// The same, in the mean of all pixels.
+    /// The same, in the mean of all pixels that were traced: of interpolated ones it is not known.
     pub mean_cut: f64,
     /// By how many steps of 8 bits a channel of the output can be off for that, in the pixel where it is most; 0 where nobody
     /// said how bright things are.
     pub greatest_steps: f64,
-    /// The same, in the mean of all pixels.
+    /// The same, in the mean of all pixels that were traced.
     pub mean_steps: f64,
 }
 
@@ -51,7 +51,7 @@ impl Effort {
                 }
             })
             .reduce(Effort::default, Effort::plus);
-        effort.divide_means(picture.sums.len());
+        effort.divide_means(picture.work.par_iter().filter(|work| work.x > 0.0).count());
         effort
     }
 
@@ -129,7 +129,7 @@ mod tests {
                 closest: 10.0,
                 shadow: 9.0,
                 greatest_cut: 0.125,
-                mean_cut: 0.125 / 3.0,
+                mean_cut: 0.125 / 2.0,
                 greatest_steps: 0.0,
                 mean_steps: 0.0,
             }

@@ -60,7 +60,7 @@ pub struct Scene {
     pub has_normals: bool,
     /// Whether it has colours by vertex.
     pub has_colors: bool,
-    /// Texture coordinates by vertex; a single one where the mesh has none.
+    /// Texture coordinates by vertex; a single one where the mesh has none or no material looks at them.
     pub coordinates: Arc<Vec<Vec2>>,
     /// Index of the material by slot; a single one where the scene is plain.
     pub material_ids: Arc<Vec<u32>>,
@@ -198,6 +198,11 @@ impl Scene {
             }
         }
         let brightest_colors = brightest_colors(&model.textures, &model.texels);
+        let coordinates = if materials.iter().any(needs_coordinates) {
+            model.mesh.coordinates
+        } else {
+            Vec::new()
+        };
         let mut scene = Scene {
             parts,
             root: structure.root,
@@ -217,7 +222,7 @@ impl Scene {
             vertices: shared(vertices),
             has_normals,
             has_colors,
-            coordinates: shared(model.mesh.coordinates),
+            coordinates: shared(coordinates),
             material_ids: shared(material_ids),
             materials,
             light: white_light(),
@@ -284,8 +289,11 @@ impl Scene {
         let used = || self.materials.iter().zip(&is_used).filter(|(_, is_used)| **is_used);
         let any = |is: fn(&Material) -> bool| used().any(|(material, _)| is(material));
         let need = |is: bool, bit: u32| if is { bit } else { 0 };
+        let shines = |light: &Light| light.color != Vec3::ZERO;
+        let others = &self.lights[..self.light_count as usize];
+        let is_area = self.light.kind == AREA && shines(&self.light);
         need(is_used[1..].contains(&true), MATERIALS)
-            | need(self.light_count > 0 || self.light.kind == AREA, LIGHTS)
+            | need(others.iter().any(shines) || is_area, LIGHTS)
             | need(self.plane_count > 0, PLANES)
             | need(any(needs_coordinates), TEXTURES)
             | need(self.environment.texture != NO_TEXTURE, IMAGE)

@@ -30,15 +30,15 @@ pub struct Viewer {
     pub is_seen: bool,
 }
 
-/// A part of a light's colour that no picture of 16 bits shows.
+/// Light that no picture of 8 bits shows, a part of what the output shows as white: near black, a twentieth of a step.
 pub const NEGLIGIBLE: f32 = 1.0 / (1 << 16) as f32;
 
 /// The colour, linear RGB, in which a viewer sees the surface: ambient, and of each light
 /// that reaches it diffuse (Lambert) and specular: Phong's (1975), or with the vector half-way between light and viewer
 /// (J. F. Blinn, "Models of light reflection for computer synthesized pictures", SIGGRAPH 1977).
 ///
-/// A light below the surface's horizon, out of whose range it is, or of which less than [`NEGLIGIBLE`] would arrive at the eye
-/// sends no shadow ray. `traced` counts the shadow rays, and as cut what was left out.
+/// A light below the surface's horizon, out of whose range it is, or of which less than [`NEGLIGIBLE`] would be shown sends no
+/// shadow ray. `traced` counts the shadow rays, and as cut what was left out.
 ///
 /// Both sides of a triangle are lit alike: the normal is turned to the viewer. Without [`LIGHTS`] among its needs
 /// there is only the frame's light, which has no area.
@@ -140,7 +140,9 @@ fn lit_by<V: Traversal, const NEEDS: u32>(
     };
     let reflected = surface.base * (material.diffuse * cosine) + material.specular * highlight;
     let most = max_component(viewer.weight * reflected);
-    if most < NEGLIGIBLE {
+    // A brighter light and a longer exposure show more of it.
+    let shown = most * max(max_component(incident.color), 1.0) * max(frame.exposure, 1.0);
+    if shown < NEGLIGIBLE {
         traced.cut += most / count as f32;
         return Vec3::ZERO;
     }

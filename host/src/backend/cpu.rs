@@ -178,6 +178,8 @@ impl Cpu {
                 let (index, level) = of_entry(*entry);
                 let index = index as usize;
                 picture.sums[index] = pixel.sum;
+                // What was left out of the samples that these replace is not in the picture; their rays were traced.
+                picture.work[index].z = 0.0;
                 picture.work[index] += pixel.work;
                 picture.marks[index] = pixel.mark.after(picture.marks[index], &samples_at(level));
             }

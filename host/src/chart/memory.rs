@@ -80,6 +80,7 @@ fn settings() -> Vec<Setting> {
                 }));
             }
             TraversalKind::Octree => {
+                settings.push(("by cost".into(), of));
                 for leaf in [4, 8, 16] {
                     let mut options = of;
                     options.octree.leaf = Some(leaf);

@@ -126,8 +126,8 @@ impl Found<'_> {
         }
     }
 
-    /// Adds what was found for an invocation's own pixel in the turn of the looks from `turn` on. The pixel's first sample overwrites,
-    /// but not the work. `work` may hold fewer pixels, or none.
+    /// Adds what was found for an invocation's own pixel in the turn of the looks from `turn` on. The pixel's first sample overwrites
+    /// all but the numbers of rays, which were traced all the same. `work` may hold fewer pixels, or none.
     pub fn add(
         &self,
         stretch: &Stretch<'_>,
@@ -155,6 +155,7 @@ impl Found<'_> {
             } else {
                 Vec4::ZERO
             };
+            cost.z = if is_first { 0.0 } else { cost.z };
             loop {
                 let by = look - turn;
                 sum += get(self.sums, by);

@@ -166,9 +166,11 @@ fn an_adaptive_picture_consists_of_pixels_of_others_on_a_gpu() {
             })
         });
         let mut counts = [0; 3];
+        let mut other_cuts = 0;
         let sums = picture.marks.iter().enumerate().map(|(index, mark)| {
             let which = (mark.level() - SINGLE) as usize;
             counts[which] += 1;
+            other_cuts += usize::from(picture.work[index].z != others[which].work[index].z);
             others[which].sums[index]
         });
         let wanted = Picture {
@@ -179,10 +181,14 @@ fn an_adaptive_picture_consists_of_pixels_of_others_on_a_gpu() {
         let different = pairs.filter(|(is, wanted)| is != wanted).count();
         let off = off(&picture, &wanted, &view);
         println!(
-            "{name}: {counts:?} pixels of 1, 4 and 16 samples, {different} are others, {off} of them off by more than 1"
+            "{name}: {counts:?} pixels of 1, 4 and 16 samples, {different} are others, {off} of them off by more than 1; of \
+             {other_cuts} something else was cut"
         );
         assert!(counts.iter().all(|count| *count > 50), "{name}: {counts:?}");
-        assert!(off <= 60 && (different == 0 || !gpu.is_software()), "{name}");
+        assert!(
+            off <= 60 && (different + other_cuts == 0 || !gpu.is_software()),
+            "{name}"
+        );
     }
 }
 

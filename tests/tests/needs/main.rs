@@ -24,6 +24,7 @@ use oktant_shared::sampling::ROTATED;
 use oktant_shared::texture::NO_TEXTURE;
 use oktant_tests::meshes::quad;
 use oktant_tests::stage::{Stage, camera, frame, glowing, mean};
+use rayon::ThreadPoolBuilder;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -89,11 +90,22 @@ fn an_adaptive_picture_consists_of_pixels_of_others() {
             let which = (mark.level() - SINGLE) as usize;
             counts[which] += 1;
             assert_eq!(picture.sums[index], others[which].sums[index], "{name}, pixel {index}");
+            let cut = |picture: &Picture| picture.work[index].z;
+            assert_eq!(
+                cut(&picture),
+                cut(&others[which]),
+                "{name}, pixel {index}: what was cut"
+            );
         }
         println!("{name}: {counts:?} pixels of 1, 4 and 16 samples");
         assert!(counts.iter().all(|count| *count > 50), "{name}: {counts:?}");
-        let again = rendered(&scene, &adaptive.frame(&scene, 120, 91));
-        assert!(again == picture, "{name}: another picture the second time");
+        for threads in [1, 3] {
+            let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+            let again = pool
+                .expect("there are threads")
+                .install(|| rendered(&scene, &adaptive.frame(&scene, 120, 91)));
+            assert!(again == picture, "{name}: another picture with {threads} threads");
+        }
     }
 }
 
@@ -134,9 +146,9 @@ fn by_sixteen(
 #[test]
 fn samples_go_where_they_matter() {
     let mut cpu = |scene: &Arc<Scene>, frame: &Frame| rendered(scene, frame);
-    for (name, tolerance) in [("bunny", 0.002), ("mirrors", 0.01)] {
+    for (name, tolerance, most) in [("bunny", 0.002, 0.5), ("mirrors", 0.01, 0.66), ("cornell", 0.001, 0.48)] {
         let (error, part) = by_sixteen(name, tolerance, uvec2(240, 182), &mut cpu);
-        assert!(error <= 1.1 && part <= 0.7, "{name}");
+        assert!(error <= 1.05 && part <= most, "{name}");
     }
 }
 
@@ -163,43 +175,61 @@ fn samples_go_where_they_matter_in_large_pictures() {
     assert!(missed.is_empty(), "{missed:?}");
 }
 
-/// Oracle: 16 samples everywhere. White threads before black, down to a third of a pixel wide: the middles of their pixels meet
-/// them now and then only. Thinner ones slip through between four samples.
+/// Oracle: 16 samples everywhere. White threads before black, level, upright, leaning and along the diagonals, each through another
+/// part of the pixels: between their middles too. Of less than 0.56 pixels, the distance between the rows of four samples, they may
+/// slip through between those, but for level and upright ones.
 #[test]
 fn threads_thinner_than_a_pixel_are_caught() {
-    for width in [0.6_f32, 0.45, 0.34] {
-        let mut stage = Stage::default();
-        let white = stage.material(glowing(NO_TEXTURE));
-        stage.model.ambient = Vec3::ONE;
-        // Of 120 x 90 pixels the picture shows 2 x 1.5 units. The threads lean, so that they meet pixels everywhere.
-        let across = Vec3::Y * (width / 60.0);
-        for (line, lean) in [(0.0, 0.11), (0.3, 0.2), (-0.3, 0.35)] {
-            stage.mesh(&quad(vec3(-0.95, line, 0.0), vec3(1.9, 1.9 * lean, 0.0), across), white);
+    // Of 120 x 90 pixels the picture shows 2 x 1.5 units.
+    let of_pixels = 1.0 / 60.0;
+    let all = [0.0_f32, 0.6, 8.0, 26.6, 45.0, 89.4, 90.0, 116.6, 135.0, 161.0];
+    for (width, directions) in [(0.9_f32, &all[..]), (0.6, &all), (0.34, &[0.0, 90.0])] {
+        for &degrees in directions {
+            let mut stage = Stage::default();
+            let white = stage.material(glowing(NO_TEXTURE));
+            stage.model.ambient = Vec3::ONE;
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            let (along, across) = (vec3(cosine, sine, 0.0), vec3(-sine, cosine, 0.0));
+            for line in -6..=6 {
+                let begin = along * -1.5 + across * (line as f32 * 12.15 * of_pixels);
+                let thread = quad(begin, along * 3.0, across * (width * of_pixels));
+                stage.mesh(&thread, white);
+            }
+            let scene = stage.build();
+            let camera = camera(Vec3::Z * 3.0, Vec3::ZERO, 2.0 * 0.25_f32.atan().to_degrees(), 120, 90);
+            let fixed = Frame {
+                samples: 16,
+                samples_per_side: 4,
+                sample_count: 16,
+                pattern: ROTATED,
+                ..frame(&scene, camera)
+            };
+            let adaptive = Frame {
+                samples: 1,
+                samples_per_side: 1,
+                sample_count: 1,
+                most_samples: 16,
+                tolerance: View::default().tolerance,
+                block: 1,
+                ..fixed
+            };
+            let (fixed, adaptive) = (rendered(&scene, &fixed), rendered(&scene, &adaptive));
+            // Towards the picture's border a thread may be found from one side only.
+            let is_inside = |index: usize| {
+                let (x, y) = (index % 120, index / 120);
+                (6..114).contains(&x) && (6..84).contains(&y)
+            };
+            let inside = || (0..fixed.sums.len()).filter(|index| is_inside(*index));
+            let lit = inside().filter(|index| mean(fixed.sums[*index]).x > 0.0).count();
+            let apart = inside()
+                .filter(|index| mean(fixed.sums[*index]) != mean(adaptive.sums[*index]))
+                .count();
+            println!("{width} of a pixel, {degrees} degrees: {apart} of {lit} pixels are not as of 16 samples");
+            assert!(
+                lit > 500 && apart as f64 <= 0.02 * lit as f64,
+                "{width}, {degrees} degrees"
+            );
         }
-        let scene = stage.build();
-        let camera = camera(Vec3::Z * 3.0, Vec3::ZERO, 2.0 * 0.25_f32.atan().to_degrees(), 120, 90);
-        let fixed = Frame {
-            samples: 16,
-            samples_per_side: 4,
-            sample_count: 16,
-            pattern: ROTATED,
-            ..frame(&scene, camera)
-        };
-        let adaptive = Frame {
-            samples: 1,
-            samples_per_side: 1,
-            sample_count: 1,
-            most_samples: 16,
-            tolerance: View::default().tolerance,
-            block: 1,
-            ..fixed
-        };
-        let (fixed, adaptive) = (rendered(&scene, &fixed), rendered(&scene, &adaptive));
-        let lit = fixed.sums.iter().filter(|sum| mean(**sum).x > 0.0).count();
-        let pairs = fixed.sums.iter().zip(&adaptive.sums);
-        let apart = pairs.filter(|(a, b)| mean(**a) != mean(**b)).count();
-        println!("{width} of a pixel: {apart} of {lit} pixels that they cross are not as of 16 samples");
-        assert!(lit > 200 && apart as f64 <= 0.02 * lit as f64, "{width}");
     }
 }
 

@@ -1,14 +1,17 @@
 //! The kernel's variants.
 
 use super::{SCENES, farthest, gpu, model, rendered, scene, steps};
-use glam::uvec2;
+use glam::{Vec3, uvec2, vec3};
 use oktant::backend::Backend;
 use oktant::backend::gpu::GpuBackend;
 use oktant::progress::silent;
 use oktant::sampling::Samples;
 use oktant::scene::Scene;
 use oktant::view::View;
-use oktant_shared::variant::Variant;
+use oktant_shared::material::Material;
+use oktant_shared::variant::{GLASS, IMAGE, LIGHTS, MATERIALS, MIRRORS, PLANES, TEXTURES, Variant};
+use oktant_tests::meshes::{block, quad};
+use oktant_tests::stage::{Stage, camera, clear, frame, matte, mirror, point_light};
 use std::sync::Arc;
 
 /// The variants that suffice a scene, the least first.
@@ -43,6 +46,73 @@ fn every_variant_renders_the_same_picture() {
         rendered_by.iter().all(|scenes| *scenes > 0),
         "{rendered_by:?}: a variant without a scene"
     );
+}
+
+/// A scene with one kind of thing beside what a plain one has, and what that needs.
+fn needing(add: impl FnOnce(&mut Stage), needs: u32) -> (Arc<Scene>, u32) {
+    let mut stage = Stage::default();
+    let plain = stage.material(matte(vec3(0.9, 0.6, 0.3)));
+    stage.mesh(&block(vec3(-0.6, 0.1, -0.5), vec3(0.5, 1.3, 0.7)), plain);
+    stage.model.lights = vec![point_light(vec3(3.0, 5.0, 4.0), Vec3::ONE)];
+    add(&mut stage);
+    (stage.build(), needs)
+}
+
+/// Oracle: the variant that can everything, bit by bit. Each need alone is seen, and no variant that lacks it is taken; what is
+/// black, or declared and used nowhere, needs nothing.
+#[test]
+fn each_need_is_seen_and_rendered_alike() {
+    let image = |stage: &mut Stage| stage.model.environment.texture = stage.position_texture(1.0);
+    let texture = |stage: &mut Stage| stage.model.materials[0].texture = stage.position_texture(1.0);
+    let cases = [
+        ("nothing", needing(|_| {}, 0)),
+        (
+            "a black light",
+            needing(|stage| stage.model.lights.push(point_light(Vec3::ONE, Vec3::ZERO)), 0),
+        ),
+        ("an unused mirror", needing(|stage| _ = stage.material(mirror()), 0)),
+        (
+            "two materials",
+            needing(|stage| another(stage, matte(Vec3::X)), MATERIALS),
+        ),
+        (
+            "two lights",
+            needing(
+                |stage| stage.model.lights.push(point_light(Vec3::Y * 9.0, Vec3::ONE)),
+                LIGHTS,
+            ),
+        ),
+        (
+            "a plane",
+            needing(|stage| stage.plane(Vec3::Y * -9.0, Vec3::Y, 0), PLANES),
+        ),
+        ("a texture", needing(texture, TEXTURES)),
+        ("an image around", needing(image, IMAGE)),
+        (
+            "a mirror",
+            needing(|stage| another(stage, mirror()), MATERIALS | MIRRORS),
+        ),
+        ("glass", needing(|stage| another(stage, clear(1.5)), MATERIALS | GLASS)),
+    ];
+    for (name, (scene, needs)) in cases {
+        assert_eq!(scene.needs, needs, "{name}");
+        assert_eq!(scene.variant, Variant::least(needs), "{name}");
+        let frame = frame(&scene, camera(vec3(2.0, 3.0, 6.0), Vec3::ZERO, 60.0, 96, 72));
+        let by = |variant| {
+            let special = Scene::clone(&scene).rendered_by(variant).expect("it suffices");
+            rendered(&Arc::new(special), &frame)
+        };
+        let wanted = by(Variant::Everything);
+        for variant in sufficient(&scene) {
+            assert!(by(variant).sums == wanted.sums, "{name} by {variant}");
+        }
+    }
+}
+
+/// A square of another material before the block.
+fn another(stage: &mut Stage, material: Material) {
+    let material = stage.material(material);
+    stage.mesh(&quad(vec3(-0.5, 1.2, 0.5), Vec3::X, Vec3::Y), material);
 }
 
 /// What does not suffice is refused, and a need that is there is seen.

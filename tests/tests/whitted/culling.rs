@@ -5,7 +5,8 @@ use oktant::picture::Picture;
 use oktant::scene::Scene;
 use oktant_shared::frame::Frame;
 use oktant_shared::light::{AREA, Light};
-use oktant_tests::stage::{Stage, camera, directional_light, frame, matte, picture, point_light};
+use oktant_shared::material::Material;
+use oktant_tests::stage::{Stage, black, camera, directional_light, frame, matte, mean, picture, point_light};
 use std::sync::Arc;
 
 /// A block on a long floor under two lights, and a third one beside them.
@@ -106,4 +107,48 @@ fn a_picture_out_of_range_costs_no_shadow_rays() {
     let frame = frame(&scene, camera(vec3(0.0, 2.0, 4.0), Vec3::ZERO, 60.0, 32, 24));
     let picture = picture(&scene, &frame);
     assert_eq!(shadow_rays(&picture).iter().sum::<f32>(), 0.0);
+}
+
+/// Oracle: Blinn's formula in f64. Of a highlight the edge is the last that is seen: it is culled where less than a twentieth of a
+/// step of 8 bits is left of it, however bright the light and however long the exposure.
+#[test]
+fn no_light_that_shows_is_culled() {
+    for (brightness, exposure) in [(1.0_f32, 1.0_f32), (300.0, 1.0), (1.0, 256.0), (40.0, 16.0)] {
+        let mut stage = Stage::default();
+        stage.material(Material {
+            specular: Vec3::ONE,
+            exponent: 20.0,
+            ..black()
+        });
+        stage.plane(Vec3::ZERO, Vec3::Y, 0);
+        let light = vec3(0.0, 2.0, -1.0);
+        stage.model.lights = vec![point_light(light, Vec3::splat(brightness))];
+        let scene = stage.build();
+        let eye = vec3(0.0, 2.0, 4.0);
+        let [width, height] = [96, 64];
+        let frame = Frame {
+            exposure,
+            ..frame(&scene, camera(eye, Vec3::ZERO, 100.0, width, height))
+        };
+        let picture = picture(&scene, &frame);
+        let mut culled = 0;
+        let mut worst = 0.0_f64;
+        for (index, (sum, work)) in (0..).zip(picture.sums.iter().zip(&picture.work)) {
+            let (x, y) = ((index % width) as f32 + 0.5, (index / width) as f32 + 0.5);
+            let ray = frame.camera.ray(x, y, 0.0);
+            if ray.direction.y >= 0.0 {
+                continue;
+            }
+            let place = ray.origin.as_dvec3() - ray.direction.as_dvec3() * f64::from(ray.origin.y / ray.direction.y);
+            let [to_light, to_eye] = [light, eye].map(|end| (end.as_dvec3() - place).normalize());
+            let wanted = (to_light + to_eye).normalize().y.powi(20) * f64::from(brightness);
+            // Where the highlight is, roundings are of its own size.
+            let off = (f64::from(mean(*sum).x) - wanted).abs() - 1e-4 * wanted;
+            worst = worst.max(off * f64::from(exposure));
+            culled += u32::from(work.y == 0.0);
+        }
+        println!("light of {brightness}, exposed {exposure} times: off by {worst:.1e}, {culled} pixels culled");
+        assert!(worst <= 1.0 / 65_536.0, "{brightness}, {exposure}");
+        assert!(culled > 100, "{brightness}, {exposure}: {culled}");
+    }
 }

@@ -16,8 +16,6 @@ use oktant_shared::material::{FRESNEL, Material, PHONG_HIGHLIGHTS};
 const MOST_RAYS: u32 = 4096;
 /// The greatest depth there is.
 const GREATEST_DEPTH: u32 = 16;
-/// A part of a light's colour that no picture of 16 bits shows: no shadow ray is sent for less.
-const FAINT: f64 = 1.0 / 65_536.0;
 
 /// Follows rays.
 pub(super) struct Tracer<'a> {
@@ -230,10 +228,6 @@ impl Tracer<'_> {
         let reflected = diffuse + material.specular.as_dvec3() * highlight;
         let most = (path.weight * reflected).max_element();
         let share = 1.0 / f64::from(lamp.sample_count());
-        if most < FAINT {
-            tally.cut += most * share;
-            return DVec3::ZERO;
-        }
         tally.shadow_rays += 1;
         let visibility = visibility(&self.world, surface.shadow_origin, path.media, &incident);
         tally.cut += most * visibility.cut.max_element() * share;
