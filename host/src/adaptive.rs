@@ -36,10 +36,10 @@ pub fn passes(frame: &Frame, per_pass: u32) -> Vec<Frame> {
         passes.push(whole);
     }
     if frame.most_samples > 1 {
-        for _ in 0..ROUNDS {
+        for round in 1..=ROUNDS {
             for first_sample in (0..frame.most_samples).step_by(per_pass.max(1) as usize) {
                 passes.push(Frame {
-                    is_listed: 1,
+                    is_listed: round,
                     block: 1,
                     first_sample,
                     sample_count: per_pass.max(1).min(frame.most_samples - first_sample),
@@ -91,7 +91,12 @@ mod tests {
                 16 * ROUNDS,
                 "{per_pass}"
             );
-            assert_eq!(rounds.iter().filter(|pass| makes_list(pass)).count() as u32, ROUNDS);
+            let numbers: Vec<u32> = rounds
+                .iter()
+                .filter(|pass| makes_list(pass))
+                .map(|pass| pass.is_listed)
+                .collect();
+            assert_eq!(numbers, Vec::from_iter(1..=ROUNDS));
         }
     }
 }

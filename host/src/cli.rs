@@ -24,6 +24,7 @@ mod rendering_report;
 mod scene_source;
 mod sequence;
 mod stability;
+mod text_output;
 mod trace;
 mod tune;
 mod view;
@@ -48,7 +49,7 @@ pub fn run() -> ExitCode {
     match configuration::complete(arguments.command).and_then(run_command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("oktant: {}", failure.sentence);
+            failure.tell();
             ExitCode::from(failure.code)
         }
     }
@@ -84,7 +85,7 @@ fn run_command(command: Command) -> Result<(), Failure> {
 
 /// Why a command did not do its work.
 struct Failure {
-    /// One sentence that says what to do.
+    /// One sentence that says what to do; empty where everything has been told.
     sentence: String,
     /// 2 where the command line is wrong, else 1.
     code: u8,
@@ -95,6 +96,20 @@ impl Failure {
         Failure {
             sentence: sentence.into(),
             code: 2,
+        }
+    }
+
+    /// Of a command that went on, and told each failure when it came.
+    fn told() -> Self {
+        Failure {
+            sentence: String::new(),
+            code: 1,
+        }
+    }
+
+    fn tell(&self) {
+        if !self.sentence.is_empty() {
+            eprintln!("oktant: {}", self.sentence);
         }
     }
 }

@@ -50,7 +50,8 @@ impl Place {
             } else {
                 right.atan2(front).to_degrees()
             },
-            elevation: above.atan2(level).to_degrees(),
+            // People are told of it, for whom there is no -0.
+            elevation: above.atan2(level).to_degrees() + 0.0,
             distance: offset.length() / radius,
         }
     }
@@ -271,6 +272,13 @@ mod tests {
                 };
                 assert!(orbit.position().distance(offset) < 1e-5, "{offset} is at {place:?}");
             }
+        }
+    }
+
+    #[test]
+    fn the_horizon_is_at_zero() {
+        for offset in [vec3(0.0, 0.0, -2.0), vec3(-0.0, -0.0, -2.0)] {
+            assert_eq!(Place::at(offset, 1.0, Up::Y).elevation.to_string(), "0");
         }
     }
 }

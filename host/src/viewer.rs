@@ -70,6 +70,7 @@ mod tasks;
 mod throttle;
 mod translation;
 mod turns;
+mod warnings;
 mod watcher;
 mod work;
 mod worker;

@@ -32,6 +32,8 @@ const SHIFT: u32 = 5;
 /// found, in its row and into the next, so that it is found whole.
 pub const ROUNDS: u32 = 2 + APART / 2;
 
+const _: () = assert!(ROUNDS < 16, "marks have four bits for the round");
+
 /// [`Mark::level`]: nothing is known of the pixel.
 pub const UNKNOWN: u32 = 0;
 /// [`Mark::level`]: it is interpolated.
@@ -61,7 +63,7 @@ pub struct Mark {
     pub nearness: f32,
     /// The normal of its middle, 10 bits a coordinate.
     pub normal: u32,
-    /// From the lowest bits on: 8 bits of level, 12 each of the least and of the greatest brightness among its samples, in
+    /// From the lowest bits on: 4 bits of level, 4 of the round that traced it last, 0 for none, 12 each of the least and of the greatest brightness among its samples, in
     /// the output.
     pub state: u32,
 }
@@ -80,7 +82,13 @@ impl Mark {
     /// One of [`UNKNOWN`], [`INTERPOLATED`], [`SINGLE`] or above.
     #[inline]
     pub fn level(&self) -> u32 {
-        self.state & 0xff
+        self.state & 0xf
+    }
+
+    /// The round that traced the pixel last, from 1 on; 0 where it was traced with all others.
+    #[inline]
+    fn round(&self) -> u32 {
+        self.state >> 4 & 0xf
     }
 
     /// How far its samples differ in the output, 0 to 1.
@@ -94,10 +102,10 @@ impl Mark {
         Vec3::new(part(0), part(10), part(20))
     }
 
-    /// Of a pixel before any of its samples.
-    pub fn of_level(level: u32) -> Self {
+    /// Of a pixel before any of its samples in a pass.
+    pub fn of_level(frame: &Frame, level: u32) -> Self {
         Mark {
-            state: level | 0xfff << 8,
+            state: level | frame.is_listed << 4 | 0xfff << 8,
             ..Mark::BLANK
         }
     }
@@ -110,7 +118,7 @@ impl Mark {
         let (least, greatest) = (self.state >> 8 & 0xfff, self.state >> 20);
         let least = if brightness < least { brightness } else { least };
         let greatest = if brightness > greatest { brightness } else { greatest };
-        self.state = self.level() | least << 8 | greatest << 20;
+        self.state = self.state & 0xff | least << 8 | greatest << 20;
         self
     }
 
@@ -143,7 +151,7 @@ impl Mark {
         } else {
             greatest
         };
-        self.state = self.level() | least << 8 | greatest << 20;
+        self.state = self.state & 0xff | least << 8 | greatest << 20;
         self
     }
 
@@ -320,13 +328,31 @@ impl Mark {
     }
 }
 
+/// Whether the round before this one traced a pixel or one of its neighbours; else what was decided then still holds.
+fn is_news(frame: &Frame, known: &Known<'_>, pixel: UVec2) -> bool {
+    let size = frame.size();
+    let index = pixel.y * size.x + pixel.x;
+    let left = if pixel.x > 0 { index - 1 } else { index };
+    let right = if pixel.x + 1 < size.x { index + 1 } else { index };
+    let above = if pixel.y > 0 { index - size.x } else { index };
+    let below = if pixel.y + 1 < size.y { index + size.x } else { index };
+    let places = [index, left, right, above, below];
+    let mut is_news = frame.is_listed == 1;
+    let mut i = 0;
+    while i < 5 {
+        is_news |= load(known.marks, get(&places, i)).round() + 1 == frame.is_listed;
+        i += 1;
+    }
+    is_news
+}
+
 /// The level to which a pixel is to be refined, or [`UNKNOWN`].
 fn refined(frame: &Frame, known: &Known<'_>, pixel: UVec2) -> u32 {
     let size = frame.size();
     let index = pixel.y * size.x + pixel.x;
     let own = load(known.marks, index);
     let (level, most) = (own.level(), level_of(frame.most_samples));
-    if level >= most {
+    if (level >= most) | !is_news(frame, known, pixel) {
         return UNKNOWN;
     }
     let color = known.color(frame, index);

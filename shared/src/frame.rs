@@ -69,7 +69,8 @@ pub struct Frame {
     /// Samples that a pixel may get, 1, 4, 16 or 64, where each gets as many as it needs; 0 where all get
     /// [`Frame::samples`].
     pub most_samples: u32,
-    /// Whether this pass renders the pixels of a list (see [`crate::adaptive`]), 0 or 1.
+    /// If this pass renders the pixels of a list, the number of the round that makes the list, from 1 on (see
+    /// [`crate::adaptive`]); 0 if it renders all.
     pub is_listed: u32,
     /// First place in that list.
     pub first_listed: u32,

@@ -92,7 +92,7 @@ pub fn render_sample<V: Traversal, const NEEDS: u32>(
         first_surface::<V, NEEDS>(frame, world, &ray)
     };
     let (color, weight) = view.share(frame, traced.color * sample.weight, sample.weight);
-    let mut mark = Mark::of_level(level_of(batch.samples));
+    let mut mark = Mark::of_level(frame, level_of(batch.samples));
     if frame.most_samples != 0 {
         mark = Mark {
             seen: traced.seen,

@@ -138,6 +138,24 @@ fn the_pictures_of_the_thesis() {
 }
 
 #[test]
+fn standard_output_takes_json_or_markdown_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |option: &str| {
+        let parts = ["--tables", "parts", "--traversal", "octants", option, "-"];
+        bench(folder.path(), &parts).output
+    };
+    let report: Value = serde_json::from_str(&told("--json")).expect("JSON and nothing else");
+    assert_eq!(report["size"], serde_json::json!([48, 36]));
+    let markdown = told("--markdown");
+    let has_lines = markdown.contains('\u{2502}');
+    assert!(
+        markdown.starts_with("## ") && markdown.contains("| octants ") && !has_lines,
+        "{markdown}"
+    );
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
 fn what_cannot_be_measured_is_refused_in_a_sentence() {
     let folder = tempfile::tempdir().unwrap();
     for (arguments, code, words) in [
@@ -151,6 +169,7 @@ fn what_cannot_be_measured_is_refused_in_a_sentence() {
         (&["--repeat", "0"], 2, "--repeat"),
         (&["missing.ply"], 1, "missing.ply"),
         (&["--json", "nowhere/b.json"], 1, "nowhere"),
+        (&["--json", "-", "--markdown", "-"], 2, "the name of a file"),
     ] {
         let tail = [
             &["bench", "--tables", "parts", "--size", "16x12", "--backend", "cpu"],

@@ -106,6 +106,8 @@ fn wrong_arguments_are_refused_with_code_2() {
         &["render", "bunny", "-o", "a.png", "--fov", "180"],
         &["render", "bunny", "-o", "a.png", "--up", "x"],
         &["render", "bunny", "-o", "a.png", "--octree", "depth=99"],
+        &["info", "balls", "--traversal", "octree", "--octree", "leaf=4,leaf=5"],
+        &["info", "balls", "--traversal", "grid", "--grid", "budget=4,budget=4"],
         &["render", "bunny", "a.toml", "-o", "a.png"],
         &["draw", "bunny"],
         &["--fast"],
@@ -200,6 +202,98 @@ fn options_that_a_scene_gives_no_meaning_are_refused_with_code_2() {
     ];
     let run = run(folder.path(), one_eye);
     assert_eq!(run.code, Some(0), "{}", run.error);
+}
+
+#[test]
+fn limits_of_a_structure_that_is_not_built_are_refused_with_code_2() {
+    let folder = folder();
+    for command in [
+        &["info"][..],
+        &["render", "-o", "a.png", "--backend", "cpu"],
+        &["trace", "--ray", "0,0,5,0,0,-1"],
+    ] {
+        for (options, words) in [
+            (&["--octree", "leaf=4"][..], "add --traversal octree"),
+            (
+                &["--traversal", "grid", "--octree", "depth=3"],
+                "add --traversal octree",
+            ),
+            (&["--grid", "density=2"], "add --traversal grid"),
+            (&["--traversal", "octree", "--grid", "budget=3"], "add --traversal grid"),
+        ] {
+            let arguments = [command, &["balls"], options].concat();
+            let refused = run(folder.path(), &arguments);
+            assert_eq!(refused.code, Some(2), "{arguments:?}: {}", refused.error);
+            assert!(refused.error.contains(words), "{words:?} is not in {:?}", refused.error);
+        }
+    }
+    assert_eq!(names(folder.path()), ["triangle.ply"]);
+    for (traversal, limits) in [("octree", "--octree=leaf=4"), ("grid", "--grid=density=2")] {
+        let told = run(folder.path(), ["info", "balls", "--traversal", traversal, limits]);
+        assert_eq!(told.code, Some(0), "{}", told.error);
+        // Also where it is preferred.
+        let mut command = Command::new(oktant());
+        command
+            .env("OKTANT_TRAVERSAL", traversal)
+            .args(["info", "balls", limits]);
+        let told = finish(command.current_dir(folder.path()));
+        assert_eq!(told.code, Some(0), "{}", told.error);
+    }
+}
+
+#[test]
+fn variants_that_do_not_suffice_are_refused_with_what_would_do() {
+    let folder = folder();
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/scenes");
+    for (scene, options, words) in [
+        ("glass.toml", &["--variant", "opaque"][..], "or give everything.\n"),
+        (
+            "bumps.toml",
+            &["--variant", "opaque"],
+            "or give mirrors or a greater one.\n",
+        ),
+        (
+            "glass.toml",
+            &["--variant", "everything", "--traversal", "compact"],
+            "--variant is for the default parts: leave it out",
+        ),
+    ] {
+        let file = scenes.join(scene);
+        let start = [
+            "render",
+            file.to_str().unwrap(),
+            "-o",
+            "a.png",
+            "--size",
+            "8x6",
+            "--backend",
+            "cpu",
+        ];
+        let refused = run(folder.path(), [&start[..], options].concat());
+        assert_eq!(refused.code, Some(2), "{scene}: {}", refused.error);
+        assert!(refused.error.contains(words), "{words:?} is not in {:?}", refused.error);
+    }
+}
+
+#[test]
+fn all_files_are_checked() {
+    let folder = folder();
+    fs::write(folder.path().join("a.ply"), "").unwrap();
+    let checked = run(folder.path(), ["check", "a.ply", "triangle.ply", "b.toml"]);
+    assert_eq!(checked.code, Some(1), "{}", checked.error);
+    assert!(
+        checked.output.starts_with("triangle.ply: 1 triangle, "),
+        "{}",
+        checked.output
+    );
+    assert_eq!(checked.output.lines().count(), 1, "{}", checked.output);
+    let sentences: Vec<_> = checked.error.lines().collect();
+    let [first, second] = sentences[..] else {
+        panic!("{}", checked.error);
+    };
+    assert!(first.starts_with("oktant: a.ply: the file is empty"), "{first}");
+    assert!(second.starts_with("oktant: b.toml"), "{second}");
+    assert_eq!(run(folder.path(), ["check"]).code, Some(2));
 }
 
 #[test]

@@ -16,7 +16,7 @@ use oktant_shared::frame::Frame;
 const REFERENCE: u32 = 1024;
 
 /// [`View::tolerance`] of the adaptive pictures.
-const TOLERANCES: [f32; 7] = [0.04, 0.01, 0.007, 0.004, 0.001, 0.0004, 0.0001];
+const TOLERANCES: [f32; 7] = [0.04, 0.013, 0.01, 0.004, 0.001, 0.0004, 0.0001];
 
 /// What adaptive sampling is to be within: so many of the rays of [`FIXED`] samples everywhere, and so many times their error.
 const BAR: [f64; 2] = [0.35, 1.05];

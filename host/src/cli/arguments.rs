@@ -18,7 +18,7 @@ mod verbosity;
 pub use bench::{BenchArguments, BenchTable};
 pub use chart::{ChartArguments, ChartKind};
 pub use compare::CompareArguments;
-pub use files::FileArguments;
+pub use files::{FileArguments, is_standard_output};
 pub use frames::{FrameArguments, FrameRange};
 pub use insight::{InsightArguments, Switch};
 pub use look::LookArguments;
@@ -279,12 +279,12 @@ pub struct StructureArguments {
     /// What the build of a tree of boxes spends its time on.
     #[arg(long, value_parser = preset(), default_value = "balanced")]
     pub build: BuildPreset,
-    /// Limits of the octree, any of depth=0..13, leaf=N (cells with more than N references are split, and no others,
+    /// Limits of --traversal octree, any of depth=0..13, leaf=N (cells with more than N references are split, and no others,
     /// whatever it costs) and budget=N (references per triangle at most, 1 to 256), separated by commas
     /// [default: depth=13,budget=16, split where that costs rays less].
     #[arg(long, value_name = "depth=D,leaf=N,budget=N", value_parser = octree, default_value = "", hide_default_value = true)]
     pub octree: Octree,
-    /// Limits of the grid, any of density=D (cells for each triangle, 0.01 to 100) and budget=N (references per triangle
+    /// Limits of --traversal grid, any of density=D (cells for each triangle, 0.01 to 100) and budget=N (references per triangle
     /// at most, 1 to 256), separated by commas [default: density=4,budget=32].
     #[arg(long, value_name = "density=D,budget=N", value_parser = grid, default_value = "", hide_default_value = true)]
     pub grid: Grid,
@@ -297,7 +297,7 @@ impl StructureArguments {
     /// What is to be built.
     ///
     /// # Errors
-    /// A combination that is not offered, or a broken profile.
+    /// A combination that is not offered, limits of another structure, or a broken profile.
     pub fn options(&self) -> Result<StructureOptions, Failure> {
         let parts = Parts {
             traversal: self.traversal,
@@ -306,6 +306,17 @@ impl StructureArguments {
         };
         if !parts.is_offered() {
             return Err(Failure::usage(refusal(parts)));
+        }
+        // Limits that are the default's change nothing.
+        if self.octree != Octree::default() && self.traversal != TraversalKind::Octree {
+            return Err(Failure::usage(
+                "Only the octree has the limits of --octree; add --traversal octree, or leave them out.",
+            ));
+        }
+        if self.grid != Grid::default() && self.traversal != TraversalKind::Grid {
+            return Err(Failure::usage(
+                "Only the grid has the limits of --grid; add --traversal grid, or leave them out.",
+            ));
         }
         let mut options = StructureOptions {
             parts,

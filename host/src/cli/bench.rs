@@ -3,11 +3,11 @@
 use super::Failure;
 use super::arguments::{BenchArguments, BenchTable, EngineArguments};
 use super::progress_bar::ProgressBar;
+use super::text_output::{self, goes_to_standard_output};
 use glam::uvec2;
 use oktant::backend::BackendChoice;
 use oktant::backend::gpu::Gpu;
 use oktant::bench::{BRUTE_BUDGET, Device, Plan, Report, Style, Workload, measure, tables, thesis};
-use oktant::output::TextFile;
 use oktant::profile::Profile;
 use oktant::ray_sets::SetKind;
 use oktant_shared::parts::Parts;
@@ -16,8 +16,10 @@ use std::sync::Arc;
 /// Measures, and prints and writes what was measured.
 pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     // First of all, so that nobody waits for figures that cannot be stored.
-    let markdown = arguments.markdown.as_deref().map(TextFile::create).transpose()?;
-    let json = arguments.json.as_deref().map(TextFile::create).transpose()?;
+    let (markdown, json) = (arguments.markdown.as_deref(), arguments.json.as_deref());
+    let is_printed = !goes_to_standard_output([("--markdown", markdown), ("--json", json)])?;
+    let markdown = markdown.map(text_output::create).transpose()?;
+    let json = json.map(text_output::create).transpose()?;
     let plan = Plan {
         parts: chosen_parts(arguments)?,
         builds: without_repetition(&arguments.build),
@@ -48,7 +50,9 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
         }
     }
     drop(bar);
-    super::print(&tables(&report, Style::Terminal))?;
+    if is_printed {
+        super::print(&tables(&report, Style::Terminal))?;
+    }
     if let Some(file) = markdown {
         file.save(&tables(&report, Style::Markdown))?;
     }
@@ -93,7 +97,7 @@ pub fn devices(arguments: &EngineArguments) -> Result<Vec<Device>, Failure> {
         BackendChoice::Auto => match gpu() {
             Ok(gpu) => vec![Device::Cpu, gpu],
             Err(error) => {
-                eprintln!("{error}");
+                eprintln!("{}", error.and_the_cpu_renders());
                 vec![Device::Cpu]
             }
         },

@@ -154,13 +154,18 @@ fn by_variant(scene: Scene, variant: Option<Variant>) -> Result<Scene, Failure> 
     let Some(variant) = variant else { return Ok(scene) };
     if scene.parts != Parts::default() {
         return Err(Failure::usage(
-            "Only the default parts have variants: leave --variant out, or --traversal, --triangle and --box.",
+            "--variant is for the default parts: leave it out, or --traversal, --triangle and --box.",
         ));
     }
     let least = scene.variant;
     scene.rendered_by(variant).ok_or_else(|| {
+        let greater = if least == Variant::Everything {
+            ""
+        } else {
+            " or a greater one"
+        };
         Failure::usage(format!(
-            "The variant `{variant}` leaves out what this scene needs: leave --variant out, or give {least} or a greater one."
+            "The variant `{variant}` leaves out what this scene needs: leave --variant out, or give {least}{greater}."
         ))
     })
 }

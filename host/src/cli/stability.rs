@@ -4,15 +4,17 @@ use super::Failure;
 use super::arguments::StabilityArguments;
 use super::bench::devices;
 use super::progress_bar::ProgressBar;
+use super::text_output::{self, goes_to_standard_output};
 use oktant::bench::Device;
-use oktant::output::TextFile;
 use oktant::stability::{Plan, page, run as run_lab, table};
 
 /// Runs the lab, and prints and writes what it found; fails where the default is wrong anywhere.
 pub fn run(arguments: &StabilityArguments) -> Result<(), Failure> {
     // First of all, so that nobody waits for what cannot be stored.
-    let json = arguments.json.as_deref().map(TextFile::create).transpose()?;
-    let html = arguments.html.as_deref().map(TextFile::create).transpose()?;
+    let (json, html) = (arguments.json.as_deref(), arguments.html.as_deref());
+    let is_printed = !goes_to_standard_output([("--json", json), ("--html", html)])?;
+    let json = json.map(text_output::create).transpose()?;
+    let html = html.map(text_output::create).transpose()?;
     let mut devices = devices(&arguments.engine)?;
     if !devices.iter().any(|device| matches!(device, Device::Cpu)) {
         // What exhibits are compared with.
@@ -26,7 +28,9 @@ pub fn run(arguments: &StabilityArguments) -> Result<(), Failure> {
     let bar = ProgressBar::new();
     let report = run_lab(&plan, &|stage, fraction| bar.show(stage, fraction))?;
     drop(bar);
-    super::print(&table(&report))?;
+    if is_printed {
+        super::print(&table(&report))?;
+    }
     if let Some(file) = json {
         file.save(&format!("{}\n", serde_json::to_string_pretty(&report)?))?;
     }

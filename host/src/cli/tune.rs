@@ -1,18 +1,18 @@
 //! `oktant tune`.
 
 use super::Failure;
-use super::arguments::TuneArguments;
+use super::arguments::{TuneArguments, is_standard_output};
 use super::bench::devices;
 use super::progress_bar::ProgressBar;
+use super::text_output;
 use glam::uvec2;
 use oktant::costs::Costs;
-use oktant::output::TextFile;
 use oktant::tune::{Plan, tune};
 
 /// Measures a device, prints what was found and writes it into a profile.
 pub fn run(arguments: &TuneArguments) -> Result<(), Failure> {
     // First of all, so that nobody waits for figures that cannot be stored.
-    let file = TextFile::create(&arguments.output)?;
+    let file = text_output::create(&arguments.output)?;
     // Of both, the real GPU.
     let Some(device) = devices(&arguments.engine)?.pop() else {
         return Err(Failure::usage("There is nothing to measure; give --backend cpu."));
@@ -37,12 +37,14 @@ pub fn run(arguments: &TuneArguments) -> Result<(), Failure> {
             100.0 * residual
         )
     };
-    super::print(&format!(
-        "{}\n{}{}",
-        profile.device,
-        line("octants", &profile.octants, &Costs::OCTANTS, tuning.residuals[0]),
-        line("octree", &profile.octree, &Costs::OCTREE, tuning.residuals[1]),
-    ))?;
+    if !is_standard_output(&arguments.output) {
+        super::print(&format!(
+            "{}\n{}{}",
+            profile.device,
+            line("octants", &profile.octants, &Costs::OCTANTS, tuning.residuals[0]),
+            line("octree", &profile.octree, &Costs::OCTREE, tuning.residuals[1]),
+        ))?;
+    }
     file.save(&profile.text())?;
     Ok(())
 }

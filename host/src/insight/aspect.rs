@@ -44,12 +44,8 @@ pub struct Meaningless {
 }
 
 impl Aspect {
-    /// All of them.
+    /// All of them, in the order in which the window goes through them: first what costs time, last what is seen.
     pub const ALL: [Aspect; 12] = [
-        Aspect::Normals,
-        Aspect::Ids,
-        Aspect::Depth,
-        Aspect::Barycentrics,
         Aspect::Steps,
         Aspect::Tests,
         Aspect::LeafDepth,
@@ -58,6 +54,10 @@ impl Aspect {
         Aspect::ShadowRays,
         Aspect::RecursionRays,
         Aspect::Rays,
+        Aspect::Normals,
+        Aspect::Ids,
+        Aspect::Depth,
+        Aspect::Barycentrics,
     ];
 
     /// What people call it.

@@ -5,6 +5,7 @@ use super::mtl::{self, Description};
 use super::statements::{NONE, Statements};
 use crate::array_file::UnusableFile;
 use crate::asset::{Asset, clay};
+use crate::excerpt::excerpt;
 use crate::texels;
 use crate::whole_file;
 use glam::{DVec3, Vec3};
@@ -24,6 +25,7 @@ pub(super) fn furnish(
     folder: Option<&Path>,
 ) -> Result<(), Fault> {
     let mut described = HashMap::new();
+    let mut is_all_read = folder.is_some();
     if let Some(folder) = folder {
         let libraries = statements.libraries.iter();
         for path in libraries.flat_map(|library| mtl::candidates(library, folder)) {
@@ -31,9 +33,20 @@ pub(super) fn furnish(
             let file = path.display().to_string();
             match whole_file::read(&path, mtl::LARGEST) {
                 Ok(bytes) => mtl::read(&bytes, &file, path.parent().unwrap_or(Path::new("")), &mut described)?,
-                Err(fault) => tracing::warn!("{name}: {}", UnusableFile { file, fault }),
+                Err(fault) => {
+                    is_all_read = false;
+                    tracing::warn!("{name}: {}", UnusableFile { file, fault });
+                }
             }
         }
+    }
+    let is_missing = |material: &&String| !material.is_empty() && !described.contains_key(*material);
+    // Where a file of materials cannot be had, that has been said.
+    if is_all_read && let Some(missing) = statements.materials.iter().find(is_missing) {
+        tracing::warn!(
+            "{name}: no MTL file describes the material \"{}\", so its faces are of clay",
+            excerpt(missing.as_bytes())
+        );
     }
     let mut ids: Vec<u32> = Vec::new();
     let mut images = HashMap::new();

@@ -17,6 +17,14 @@ impl TextFile {
         PictureFile::create(path).map(TextFile)
     }
 
+    /// A file for whoever reads standard output, see [`PictureFile::standard_output`].
+    ///
+    /// # Errors
+    /// [`OutputError`] where there is no place to keep the content until it is complete.
+    pub fn standard_output() -> Result<Self, OutputError> {
+        PictureFile::standard_output().map(TextFile)
+    }
+
     /// Writes the text and gives the file its name.
     ///
     /// # Errors

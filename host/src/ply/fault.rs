@@ -56,7 +56,9 @@ pub enum Fault {
     #[error("there is no such file; check the path")]
     Missing,
     /// The path is a directory.
-    #[error("this is a directory; give the path of a PLY file in it")]
+    #[error(
+        "this is a directory; give the path of a file in it, a mesh (PLY, OBJ, STL or glTF) or a scene file (.toml)"
+    )]
     Directory,
     /// The operating system refuses to read.
     #[error("the file cannot be read ({reason}); check its permissions and the disk")]
@@ -75,8 +77,8 @@ pub enum Fault {
     Utf16,
     /// The first line is not `ply`.
     #[error(
-        "this is not a PLY file, for its first line is not \"ply\"; convert the mesh to PLY, \
-         or let its name end as its format says (.glb, .gltf, .obj, .stl)"
+        "this is not a PLY file, for its first line is not \"ply\"; give a mesh as PLY, OBJ, STL or glTF, with a name that \
+         ends as its format says (.ply, .obj, .stl, .glb, .gltf); a scene file's ends in .toml"
     )]
     NotPly,
 

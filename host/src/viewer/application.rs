@@ -255,21 +255,24 @@ impl Application {
     /// Shows a sentence for a while, and tells it on standard error.
     pub(super) fn tell(&mut self, text: String, is_warning: bool) {
         eprintln!("{text}");
-        self.message = Some(Message {
-            text,
-            is_warning,
-            about: About::Other,
-            until: Instant::now() + MESSAGE,
-        });
-        self.redraw();
+        self.show_message(text, is_warning, About::Other);
     }
 
     /// Tells the person of what failed; what is done at last of the same kind takes it back.
     pub(super) fn warn(&mut self, text: String, about: About) {
-        self.tell(text, true);
-        if let Some(message) = &mut self.message {
-            message.about = about;
-        }
+        eprintln!("{text}");
+        self.show_message(text, true, about);
+    }
+
+    /// Shows a sentence for a while, of which standard error knows.
+    pub(super) fn show_message(&mut self, text: String, is_warning: bool, about: About) {
+        self.message = Some(Message {
+            text,
+            is_warning,
+            about,
+            until: Instant::now() + MESSAGE,
+        });
+        self.redraw();
     }
 
     pub(super) fn redraw(&self) {

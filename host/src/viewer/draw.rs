@@ -5,7 +5,7 @@ use super::caption::{self, Caption};
 use super::layers::Layers;
 use super::notice::Image;
 use super::oracle::veiled;
-use super::overlay::{Line, Overlay};
+use super::overlay::{Line, Overlay, fitted};
 use super::screen::Screen;
 use super::showing::Showing;
 use super::state::GpuState;
@@ -26,8 +26,9 @@ impl Application {
         let (Some(window), true) = (self.window.clone(), self.session.is_visible()) else {
             return;
         };
-        self.update_overlay(now);
+        // How wide it is decides where lines of the overlay end.
         self.run_panel(now);
+        self.update_overlay(now);
         let title = self.title();
         if title != self.title {
             window.set_title(&title);
@@ -99,29 +100,36 @@ impl Application {
 
     fn update_overlay(&mut self, now: Instant) {
         let scale = (self.session.scale.round() as u32).max(1);
+        let columns = Overlay::columns(self.free_width(), scale);
         let mut panels = Vec::new();
         if self.session.figures {
-            panels.push(caption::figures(&self.caption(now)));
+            panels.push(fitted(caption::figures(&self.caption(now)), columns));
         } else {
             let under_way = self.under_way();
-            panels.extend(under_way.iter().map(|text| caption::message(text, false, usize::MAX)));
+            panels.extend(under_way.iter().map(|text| caption::message(text, false, columns)));
         }
         if self.session.help {
             panels.push(caption::help());
         }
-        panels.push(self.recent_lines());
+        panels.push(fitted(self.recent_lines(), columns));
         // Whoever wants no figures wants to see the picture, unless something went wrong.
         if let Some(message) = &self.message
             && (message.is_warning || self.session.figures)
         {
-            let columns = Overlay::columns(self.session.size[0], scale).min(100);
-            panels.push(caption::message(&message.text, message.is_warning, columns));
+            panels.push(caption::message(&message.text, message.is_warning, columns.min(100)));
         }
         if self.session.oracle {
-            panels.push(self.oracle_legend());
+            panels.push(fitted(self.oracle_legend(), columns));
         }
-        panels.extend(self.sight_panels(Overlay::columns(self.session.size[0], scale).min(60)));
+        panels.extend(self.sight_panels(columns.min(60)));
         self.set_panels(panels, scale);
+    }
+
+    /// How wide the overlay may be, pixels: as the window, or as what the open panel leaves of it.
+    fn free_width(&self) -> u32 {
+        let width = self.session.size[0];
+        let panel = self.panel.as_ref().filter(|_| self.session.panel);
+        panel.map_or(width, |panel| panel.layout.width_beside(width, self.session.scale))
     }
 
     fn set_panels(&mut self, panels: Vec<Vec<Line>>, scale: u32) {

@@ -9,6 +9,7 @@ use super::step::{Expectation, Step};
 use super::written_camera::Form;
 use crate::insight::Aspect;
 use crate::nearest::nearest;
+use crate::output::Format;
 use glam::Vec3;
 use std::path::PathBuf;
 
@@ -158,8 +159,8 @@ pub fn step(line: &str) -> Result<Step, String> {
             0 => return Err("give the place in the list of recent files, from 1 on, for example: recent 1".into()),
             place => Step::Ask(Input::Recent(place as usize - 1)),
         },
-        "save" => Step::Save(path(word, rest)?),
-        "screenshot" => Step::Screenshot(path(word, rest)?),
+        "save" => Step::Save(picture(word, rest)?),
+        "screenshot" => Step::Screenshot(picture(word, rest)?),
         "oracle" => Step::Oracle(on_or_off(rest, "state of the oracle")?),
         "panel" => Step::Panel(on_or_off(rest, "state of the panel")?),
         "show" => Step::Show(shown(rest)?),
@@ -353,11 +354,18 @@ fn count(step: &str, rest: &str) -> Result<u64, String> {
     }
 }
 
-fn path(step: &str, rest: &str) -> Result<PathBuf, String> {
+/// The file of a picture. The window knows what a screen shows, which PNG files hold.
+fn picture(step: &str, rest: &str) -> Result<PathBuf, String> {
     if rest.is_empty() {
         return Err(format!("give a file, for example: {step} picture.png"));
     }
-    Ok(PathBuf::from(rest))
+    let path = PathBuf::from(rest);
+    match Format::new(&path, None) {
+        Ok(Format::Png(_)) => Ok(path),
+        _ => Err(format!(
+            "pictures of the window are PNG files: give {rest} a name that ends in .png"
+        )),
+    }
 }
 
 /// Any number of files, but one; a name with spaces stands in quotes.
@@ -418,6 +426,21 @@ mod tests {
         }
         for name in KEYS {
             assert!(key(name).is_ok(), "{name}");
+        }
+    }
+
+    #[test]
+    fn pictures_of_the_window_are_png_files() {
+        assert_eq!(
+            step("save my folder/a.b.PNG"),
+            Ok(Step::Save("my folder/a.b.PNG".into()))
+        );
+        assert_eq!(step("screenshot a.png"), Ok(Step::Screenshot("a.png".into())));
+        for word in ["save", "screenshot"] {
+            for name in ["a.exr", "a.jpg", "a", ".png", "a.png.txt"] {
+                let refused = format!("pictures of the window are PNG files: give {name} a name that ends in .png");
+                assert_eq!(step(&format!("{word} {name}")), Err(refused));
+            }
         }
     }
 }

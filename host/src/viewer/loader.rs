@@ -6,6 +6,7 @@ use super::mentioned::mentioned;
 use super::notice::{LoadError, Mailbox, Notice};
 use super::panel::Inventory;
 use super::throttle::Throttle;
+use super::warnings::overheard;
 use super::watcher::Stamps;
 use crate::model::Focus;
 use crate::names::Names;
@@ -36,6 +37,8 @@ pub struct Arrival {
     pub size: Option<[u32; 2]>,
     /// The files that were read.
     pub stamps: Stamps,
+    /// What was left out or missing.
+    pub warnings: Vec<String>,
 }
 
 /// A scene that was not.
@@ -86,7 +89,8 @@ fn arrive(
     began: SystemTime,
     progress: Progress<'_>,
 ) -> Result<Box<Arrival>, LoadError> {
-    let mut setting = source.load(progress)?;
+    let (setting, warnings) = overheard(|| source.load(progress));
+    let mut setting = setting?;
     GivenSetting::put_all(set, &mut setting)?;
     let stamps = Stamps::new(setting.files, began);
     let (focus, shift) = (setting.model.focus, setting.model.mesh.shift);
@@ -102,5 +106,6 @@ fn arrive(
         names: setting.names,
         size: setting.size,
         stamps,
+        warnings,
     }))
 }

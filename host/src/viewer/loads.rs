@@ -4,6 +4,7 @@ use super::application::Application;
 use super::draft::Paces;
 use super::loader::{self, Arrival, Refusal};
 use super::state::{About, Loading};
+use super::warnings;
 use crate::scene::Staging;
 use crate::source::Source;
 use crate::standpoint::Origin;
@@ -134,6 +135,10 @@ impl Application {
         // What is read again says nothing of another file that was refused.
         self.message
             .take_if(|message| message.about == About::Reload || (message.about == About::Load && !loading.is_reload));
+        if let Some(sentence) = warnings::sentence(&arrival.warnings) {
+            // Whoever listens to standard error has heard all of them; read again, the files may be complete.
+            self.show_message(sentence, true, About::Reload);
+        }
         if is_staged {
             self.schedule.change(now);
         } else {

@@ -96,29 +96,36 @@ impl Overlay {
         }
     }
 
-    /// How many characters fit into a line of a window of this width in pixels.
-    pub fn columns(window_width: u32, scale: u32) -> usize {
-        let pixels = (window_width / scale.max(1)).saturating_sub(4 * MARGIN);
+    /// How many characters fit into a line where the window is free over this width in pixels; never fewer than 20, which can
+    /// still be read.
+    pub fn columns(free_width: u32, scale: u32) -> usize {
+        let pixels = (free_width / scale.max(1)).saturating_sub(4 * MARGIN);
         (pixels / COLUMN).max(20) as usize
     }
 }
 
-/// Breaks a text into lines of at most so many characters, between words where that is possible.
+/// Breaks a text into lines of at most so many characters, between words where that is possible. Between words of a line there
+/// are as many spaces as in the text: more than one part what does not belong together.
 pub fn wrap(text: &str, columns: usize) -> Vec<String> {
     let columns = columns.max(1);
     let mut lines = Vec::new();
     let mut line = String::new();
-    let mut length = 0;
-    for word in text.split_whitespace() {
+    let (mut length, mut gap) = (0, 0);
+    for word in text.split(char::is_whitespace) {
+        if word.is_empty() {
+            gap += 1;
+            continue;
+        }
         let mut characters: Vec<char> = word.chars().collect();
-        if length > 0 && length + 1 + characters.len() > columns {
+        if length > 0 && length + gap + characters.len() > columns {
             lines.push(std::mem::take(&mut line));
             length = 0;
         }
         if length > 0 {
-            line.push(' ');
-            length += 1;
+            line.extend(std::iter::repeat_n(' ', gap));
+            length += gap;
         }
+        gap = 1;
         while length + characters.len() > columns {
             let rest = characters.split_off(columns - length);
             line.extend(characters);
@@ -133,6 +140,18 @@ pub fn wrap(text: &str, columns: usize) -> Vec<String> {
         lines.push(line);
     }
     lines
+}
+
+/// Lines of at most so many characters: those that are longer are broken.
+pub fn fitted(lines: Vec<Line>, columns: usize) -> Vec<Line> {
+    let broken = |line: Line| {
+        if line.text.chars().count() <= columns {
+            return vec![line];
+        }
+        let texts = wrap(&line.text, columns).into_iter();
+        texts.map(|text| Line { text, ..line }).collect()
+    };
+    lines.into_iter().flat_map(broken).collect()
 }
 
 const fn texel([red, green, blue]: [u8; 3], opacity: u8) -> u32 {
@@ -267,6 +286,11 @@ mod tests {
             ["a/very", "/long/", "path", "is", "there"]
         );
         assert_eq!(wrap("", 5), Vec::<String>::new());
+        assert_eq!(
+            wrap(" one   two  three", 10),
+            ["one   two", "three"],
+            "parts stay apart"
+        );
         for columns in 1..30 {
             let text = "There is no such file; check the path\u{e4}";
             let lines = wrap(text, columns);
@@ -276,5 +300,12 @@ mod tests {
             );
             assert_eq!(lines.concat().replace(' ', ""), text.replace(' ', ""));
         }
+    }
+
+    #[test]
+    fn only_lines_that_are_too_long_are_broken() {
+        let lines = vec![line("   12  pixels"), line("orthographic, 12.5 high"), line("")];
+        let texts: Vec<String> = fitted(lines, 15).into_iter().map(|line| line.text).collect();
+        assert_eq!(texts, ["   12  pixels", "orthographic,", "12.5 high", ""]);
     }
 }

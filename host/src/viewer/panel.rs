@@ -125,6 +125,12 @@ impl Panel {
         asked
     }
 
+    /// Unfolds what is said of a material, with the next drawing.
+    pub fn show_material(&mut self, index: usize) {
+        self.layout.show_material(index);
+        self.is_stale = true;
+    }
+
     /// When it wants to be drawn again, if nothing happens.
     pub fn wake(&self) -> Option<Instant> {
         self.wake

@@ -287,6 +287,8 @@ mod tests {
             "recent last",
             "add mesh",
             "save",
+            "save a.exr",
+            "screenshot a",
             "wait frames",
             "wait frames -1",
             "quit now",

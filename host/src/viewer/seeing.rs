@@ -142,6 +142,13 @@ mod tests {
                 seen.push(aspect);
             }
             assert_eq!(seen.len(), count, "{traversal}");
+            // Whoever wonders why something is slow presses the key once. Without a structure there are no steps.
+            let first = if traversal == TraversalKind::Brute {
+                Aspect::Tests
+            } else {
+                Aspect::Steps
+            };
+            assert_eq!(seen[0], first, "{traversal}");
             for aspect in seen.into_iter().rev() {
                 apply(&mut seeing, See::Previous);
                 assert_eq!(seeing.aspect, Some(aspect));

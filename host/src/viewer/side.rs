@@ -90,7 +90,7 @@ impl Application {
             return;
         };
         if let Some(material) = material_at(scene, &self.session.view, self.session.size, at) {
-            panel.layout.show_material(material);
+            panel.show_material(material);
             self.session.panel = true;
             self.redraw();
         }

@@ -1,6 +1,6 @@
 //! The tasks of docs/tasks.md: at most six inputs each, and each one is suggested by the window itself.
 
-use super::caption;
+use super::caption::{self, Caption};
 use super::event::{Button, Key, Modifiers};
 use super::input::Input;
 use super::script::Script;
@@ -13,6 +13,12 @@ fn is_listed(wanted: &str) -> bool {
         let keys = line.text.split("   ").next().unwrap_or_default();
         keys.split(", ").chain(keys.split([' ', ','])).any(|key| key == wanted)
     })
+}
+
+/// Whether the window's first lines, which are there from the beginning, name a key.
+fn is_in_the_first_lines(key: &str) -> bool {
+    let lines = caption::figures(&Caption::default());
+    lines.iter().any(|line| line.text.contains(&format!("{key}: ")))
 }
 
 /// What the list of keys has to say for an input to be suggested by it; nothing for a click on the panel, none for what is no
@@ -63,7 +69,7 @@ fn six_tasks_of_at_most_six_inputs_that_the_window_suggests() {
         }
         tasks += 1;
         let script = Script::read(&path).expect("it is a script");
-        let (mut inputs, mut has_panel) = (0, false);
+        let (mut inputs, mut has_list, mut has_panel) = (0, false, false);
         for (line, step) in &script.steps {
             let Some(wanted) = suggestion(step) else { continue };
             inputs += 1;
@@ -72,7 +78,12 @@ fn six_tasks_of_at_most_six_inputs_that_the_window_suggests() {
                 assert!(has_panel, "{place}: nothing is there to click on");
             } else {
                 assert!(is_listed(&wanted), "{place}: {wanted} is not in the list of keys");
+                assert!(
+                    has_list || is_in_the_first_lines(&wanted),
+                    "{place}: nobody has seen the list of keys, which has {wanted}"
+                );
             }
+            has_list |= wanted == "H";
             has_panel |= ["Tab", "Ctrl+Shift"].contains(&wanted.as_str());
         }
         assert!((1..=6).contains(&inputs), "{}: {inputs} inputs", path.display());
@@ -91,5 +102,8 @@ fn what_is_not_in_the_list_is_not_suggested() {
         ("lef", false),
     ] {
         assert_eq!(is_listed(wanted), is_there, "{wanted}");
+    }
+    for (key, is_there) in [("H", true), ("Tab", true), ("V", false)] {
+        assert_eq!(is_in_the_first_lines(key), is_there, "{key}");
     }
 }

@@ -3,6 +3,7 @@
 use crate::insight::shortened;
 use crate::scene::Scene;
 use crate::seen::middles;
+use crate::structure::Figures;
 use crate::trace::{Cell, Content, Layout, Recorder, children, root};
 use glam::{UVec2, Vec3};
 use oktant_shared::frame::Frame;
@@ -32,9 +33,10 @@ pub const MOST: usize = 10_000;
 pub struct Chosen {
     /// What was asked for.
     pub selection: Selection,
-    /// The cells: of leaves those of the lowest levels, and of one level the nearest ones, where there are more than [`MOST`].
+    /// The cells. Where there are more than [`MOST`], they are of leaves those on the levels nearest to the root, and of one level
+    /// those nearest to the camera.
     pub cells: Vec<Cell>,
-    /// How many more there are at least.
+    /// How many more there are.
     pub left_out: usize,
 }
 
@@ -71,7 +73,7 @@ impl fmt::Display for Chosen {
         }
         match (self.left_out, self.selection) {
             (0, _) => Ok(()),
-            (more, Selection::Leaves) => write!(f, ", the lowest levels; at least {more} more are left out"),
+            (more, Selection::Leaves) => write!(f, ", those nearest to the root; {more} more are left out"),
             (more, _) => write!(f, ", the nearest; {more} more are left out"),
         }
     }
@@ -123,16 +125,20 @@ fn top(scene: &Scene) -> (Inner, Vec<Cell>) {
     }
 }
 
-/// Leaves level by level, until there are enough; of the last level the nearest ones, and how many of it are left out.
+/// Leaves level by level, until there are enough, of the last level the nearest ones; and how many are left out.
 fn leaves(scene: &Scene, eye: Vec3, most: usize) -> (Vec<Cell>, usize) {
     let (mut inner, mut filled) = top(scene);
     let mut cells = Vec::new();
     loop {
         let (kept, left_out) = nearest(filled, eye, most - cells.len());
         cells.extend(kept);
-        if inner.is_empty() || left_out > 0 || cells.len() == most {
-            // Each inner node has leaves.
-            return (cells, left_out + inner.len());
+        if inner.is_empty() {
+            return (cells, left_out);
+        }
+        if cells.len() == most {
+            // Those below need no boxes to be counted.
+            let all = Figures::new(scene.parts.traversal, &scene.nodes).filled;
+            return (cells, all - most);
         }
         (inner, filled) = below(scene, &inner);
     }
@@ -164,7 +170,7 @@ mod tests {
     use super::*;
     use crate::balls;
     use crate::progress::silent;
-    use crate::structure::{Figures, StructureOptions};
+    use crate::structure::StructureOptions;
     use crate::view::View;
 
     fn scene(traversal: TraversalKind) -> Scene {
@@ -184,10 +190,30 @@ mod tests {
             assert_eq!((all.0.len(), all.1), (filled, 0), "{traversal}");
             let few = leaves(&scene, Vec3::ZERO, 20);
             assert_eq!(few.0.len(), filled.min(20), "{traversal}");
-            assert_eq!(few.1 > 0, filled > 20, "{traversal}");
+            assert_eq!(few.1, filled.saturating_sub(20), "{traversal}");
             let deepest = |cells: &[Cell]| cells.iter().map(|cell| cell.depth).max();
             assert!(deepest(&few.0) <= deepest(&all.0), "{traversal}");
         }
+    }
+
+    #[test]
+    fn what_is_left_out_is_told() {
+        let mut chosen = Chosen {
+            selection: Selection::Leaves,
+            cells: Vec::new(),
+            left_out: 0,
+        };
+        assert_eq!(chosen.to_string(), "0 leaves");
+        chosen.left_out = 7;
+        assert_eq!(
+            chosen.to_string(),
+            "0 leaves, those nearest to the root; 7 more are left out"
+        );
+        chosen.selection = Selection::Level(3);
+        assert_eq!(
+            chosen.to_string(),
+            "0 cells of level 3, the nearest; 7 more are left out"
+        );
     }
 
     #[test]

@@ -29,7 +29,11 @@ fn paths_that_are_no_ply_file_are_refused() {
         error(&path),
         format!("{}: there is no such file; check the path", path.display())
     );
-    assert!(error(directory.path()).contains("is a directory"));
+    let sentence = error(directory.path());
+    assert!(
+        sentence.contains("is a directory") && sentence.contains("PLY, OBJ, STL or glTF") && sentence.contains(".toml"),
+        "{sentence}"
+    );
     let below = directory.path().join("film.ply");
     std::fs::write(&below, b"RIFF....AVI ").unwrap();
     assert!(error(&below).contains("not a PLY file"));

@@ -88,6 +88,7 @@ fn broken_files_are_refused_with_code_1() {
     fs::write(at("broken.obj"), "f 1 2 3\n").unwrap();
     fs::write(at("broken.stl"), "solid\nfacet\n").unwrap();
     fs::create_dir(at("folder.gltf")).unwrap();
+    fs::create_dir(at("folder")).unwrap();
     for (file, words) in [
         ("broken.glb", "cut short"),
         ("broken.obj", "line 1"),
@@ -95,7 +96,11 @@ fn broken_files_are_refused_with_code_1() {
         ("missing.obj", "no such file"),
         ("missing.gltf", "no such file"),
         ("folder.gltf", "directory"),
-        ("a.mtl", "let its name end as its format says"),
+        (
+            "a.mtl",
+            "a name that ends as its format says (.ply, .obj, .stl, .glb, .gltf)",
+        ),
+        ("folder", "a mesh (PLY, OBJ, STL or glTF) or a scene file (.toml)"),
     ] {
         let run = run(folder.path(), ["render", file, "-o", "broken.png"]);
         assert_eq!(run.code, Some(1), "{}", run.error);
@@ -109,6 +114,35 @@ fn broken_files_are_refused_with_code_1() {
     }
     let up = run(folder.path(), ["render", "floor.glb", "-o", "up.png", "--up", "z"]);
     assert_eq!(up.code, Some(2), "{}", up.error);
+}
+
+#[test]
+fn materials_that_are_not_described_are_warned_of_once() {
+    let folder = folder();
+    let check = || run(folder.path(), ["check", "triangle.OBJ"]);
+    let told = check();
+    assert_eq!((told.code, told.error.as_str()), (Some(0), ""));
+    let faces = ["blue", "red", "green", "blue"].map(|name| format!("usemtl {name}\nf 1 2 3\n"));
+    let text = format!("mtllib a.mtl\n{TRIANGLE}{}", faces.concat());
+    fs::write(folder.path().join("triangle.OBJ"), text).unwrap();
+    let warned = check();
+    assert_eq!(
+        (warned.code, warned.error.lines().count()),
+        (Some(0), 1),
+        "{}",
+        warned.error
+    );
+    let words = "triangle.OBJ: no MTL file describes the material \"blue\", so its faces are of clay";
+    assert!(warned.error.contains(words), "{}", warned.error);
+    // Of a file that is not there, that alone is said.
+    fs::remove_file(folder.path().join("a.mtl")).unwrap();
+    let warned = check();
+    assert_eq!(warned.error.lines().count(), 1, "{}", warned.error);
+    assert!(
+        warned.error.contains("a.mtl: there is no such file"),
+        "{}",
+        warned.error
+    );
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Materials by the names that files give them: what a name sets is what the number does.
 
+use super::panel::warning_pixels;
 use super::window::{Session, agreement, run};
 use super::{SIZE, assert_same};
 
@@ -118,4 +119,38 @@ fn a_name_that_no_material_has_is_refused() {
     assert!(mistaken.standard_error.contains(wanted), "{mistaken}");
     let unclosed = start("wait settled\nset material \"old wood mirror 0.5");
     assert_eq!(unclosed.code, Some(2), "{unclosed}");
+}
+
+#[test]
+#[ignore = "needs a display"]
+fn what_is_missing_beside_a_file_is_told_in_the_window() {
+    let session = Session::new();
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    session.write("a.mtl", "newmtl painted\nmap_Kd gone.png\n");
+    let whole = format!("mtllib a.mtl\n{corners}usemtl painted\nf 1 2 3\n");
+    session.write("one.obj", &whole);
+    session.write("two.obj", &format!("mtllib lost.mtl\n{whole}"));
+    session.write("none.obj", &format!("{corners}f 1 2 3\n"));
+    let report = run(
+        &session,
+        &["--backend", "cpu", "--size", SIZE],
+        "key I
+        wait settled
+        open one.obj
+        wait settled
+        expect message gone.png
+        screenshot one.png
+        open two.obj
+        wait settled
+        expect message lost.mtl
+        expect message ; and 1 more.
+        open none.obj
+        wait settled
+        screenshot none.png",
+    );
+    let [one, none] = ["one.png", "none.png"].map(|name| warning_pixels(&session.await_picture(name)));
+    assert!(one > 200, "{one} pixels of text");
+    assert_eq!(none, 0, "it goes with what it is about");
+    let warned = report.standard_error.matches("gone.png").count();
+    assert_eq!(warned, 2, "standard error has each of them once: {report}");
 }

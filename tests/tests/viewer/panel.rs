@@ -16,7 +16,7 @@ fn left(image: &Image) -> Image {
 }
 
 fn right(image: &Image) -> Image {
-    crop_imm(image, PIXELS[0] - 280, 0, 280, PIXELS[1]).to_image()
+    crop_imm(image, image.width() - 280, 0, 280, image.height()).to_image()
 }
 
 /// Opens and closes it; returns what the window shows with it.
@@ -161,6 +161,66 @@ fn clicks_fold_and_unfold() {
     assert!(agreement(&before, &clicked) < 0.98, "{}", agreement(&before, &clicked));
     // Times have changed.
     assert!(agreement(&before, &again) > 0.98, "{}", agreement(&before, &again));
+}
+
+#[test]
+#[ignore = "needs a display"]
+fn a_material_that_is_picked_is_there_once_all_is_settled() {
+    let session = Session::new();
+    run(
+        &session,
+        &["--backend", "cpu", "--size", "640x960"],
+        "panel on
+        wait settled
+        screenshot before.png
+        pick 320 560
+        wait settled
+        screenshot picked.png
+        wait milliseconds 300
+        screenshot later.png",
+    );
+    // Where its table is, below what can be set of the picture; the figures further down go on changing.
+    let table = |name: &str| crop_imm(&right(&session.await_picture(name)), 0, 460, 280, 240).to_image();
+    let [before, picked, later] = ["before.png", "picked.png", "later.png"].map(table);
+    let settled = agreement(&picked, &later);
+    assert_eq!(settled, 1.0, "it was not complete");
+    let changed = agreement(&before, &picked);
+    println!("the table changed {:.1} % of the pixels", (1.0 - changed) * 100.0);
+    assert!(changed < 0.95, "{changed}: there is no table");
+}
+
+/// Pixels of the text of warnings.
+pub fn warning_pixels(image: &Image) -> usize {
+    let is_warning = |pixel: &[u8; 3]| {
+        pixel
+            .iter()
+            .zip([255, 190, 92])
+            .all(|(is, wanted)| is.abs_diff(wanted) <= 1)
+    };
+    image.pixels().filter(|pixel| is_warning(&pixel.0)).count()
+}
+
+#[test]
+#[ignore = "needs a display"]
+fn a_message_ends_where_the_panel_begins() {
+    let session = Session::new();
+    run(
+        &session,
+        &["--backend", "cpu", "--size", SIZE],
+        "key I
+        wait settled
+        open a-folder-that-nobody-has-made/with-a-mesh-that-is-not-there.ply
+        wait settled
+        expect message nobody
+        screenshot closed.png
+        panel on
+        wait settled
+        screenshot open.png",
+    );
+    // The same letters, in other lines. The panel hides what lies under it.
+    let [closed, open] = ["closed.png", "open.png"].map(|name| warning_pixels(&session.await_picture(name)));
+    assert!(closed > 500, "{closed} pixels of text");
+    assert_eq!(open, closed);
 }
 
 #[test]

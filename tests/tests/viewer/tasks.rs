@@ -148,6 +148,41 @@ fn save_the_picture() {
     assert_shown(&session, "save");
 }
 
+/// The steps of a script that a person does.
+fn inputs(script: &str) -> Vec<&str> {
+    let steps = script.lines().map(str::trim);
+    let steps = steps.filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let is_input = |step: &&str| {
+        let word = step.split(' ').next().unwrap_or_default();
+        !["wait", "screenshot", "print", "expect"].contains(&word)
+    };
+    steps.filter(is_input).collect()
+}
+
+#[test]
+fn each_task_takes_at_most_six_inputs() {
+    // The window's first lines name these two; H lists the others.
+    let is_named = |input: &str| ["key H", "key Tab"].contains(&input);
+    let mut tasks = 0;
+    for entry in std::fs::read_dir(root().join("docs/tasks")).expect("the folder is there") {
+        let path = entry.expect("it can be read to its end").path();
+        if path.extension().is_none_or(|extension| extension != "txt") {
+            continue;
+        }
+        tasks += 1;
+        let name = path.display();
+        let script = std::fs::read_to_string(&path).expect("scripts are text");
+        let inputs = inputs(&script);
+        println!("{name}: {}", inputs.join(", "));
+        assert!((1..=6).contains(&inputs.len()), "{name}: {} inputs", inputs.len());
+        let mut keys = inputs.iter().filter(|input| input.starts_with("key "));
+        if keys.any(|key| !is_named(key)) {
+            assert_eq!(inputs[0], "key H", "{name}: nobody has told of its keys");
+        }
+    }
+    assert_eq!(tasks, 6);
+}
+
 #[test]
 fn every_picture_of_the_page_is_there() {
     let page = page();

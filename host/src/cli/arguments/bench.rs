@@ -55,10 +55,11 @@ pub struct BenchArguments {
     /// Measurements of each time, 1 to 10000.
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub repeat: u32,
-    /// Write the tables into a Markdown file too.
+    /// Write the tables into a Markdown file too; - is standard output, which then has nothing else.
     #[arg(long, value_name = "FILE")]
     pub markdown: Option<PathBuf>,
-    /// Write everything that was measured into a JSON file; docs/bench.md describes it.
+    /// Write everything that was measured into a JSON file, or to standard output (-) instead of the tables; docs/bench.md
+    /// describes it.
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
     #[command(flatten)]

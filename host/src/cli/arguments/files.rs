@@ -12,6 +12,11 @@ use std::path::{Path, PathBuf};
 /// What stands for standard output in the place of a name.
 const STANDARD_OUTPUT: &str = "-";
 
+/// Whether a name stands for standard output.
+pub fn is_standard_output(name: &Path) -> bool {
+    name == Path::new(STANDARD_OUTPUT)
+}
+
 /// Which files a picture becomes.
 #[derive(Debug, Args)]
 pub struct FileArguments {
@@ -62,7 +67,7 @@ impl FileArguments {
 
     /// Whether the picture goes to standard output.
     pub fn is_standard_output(&self) -> bool {
-        self.output == Path::new(STANDARD_OUTPUT)
+        is_standard_output(&self.output)
     }
 
     /// The name that says which format is meant: standard output has one as if it were a file.

@@ -14,10 +14,10 @@ pub struct StabilityArguments {
     /// Only these rows, separated by commas; docs/stability.md describes them.
     #[arg(long, value_name = "LIST", value_delimiter = ',', hide_possible_values = true, value_parser = PossibleValuesParser::new(row_ids()))]
     pub rows: Vec<String>,
-    /// Write everything into a JSON file.
+    /// Write everything into a JSON file; - is standard output, which then has nothing else.
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
-    /// Write everything, with wrong answers written out, as one page.
+    /// Write everything, with wrong answers written out, as one page; - likewise.
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
     #[command(flatten)]

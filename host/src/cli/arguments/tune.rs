@@ -7,7 +7,8 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct TuneArguments {
-    /// Where the profile goes (TOML). An existing file is replaced once the new one is complete.
+    /// Where the profile goes (TOML); - is standard output, which then has nothing else. An existing file is replaced once the
+    /// new one is complete.
     #[arg(short, long, value_name = "PROFILE.toml")]
     pub output: PathBuf,
     /// Size of the pictures in pixels, a primary ray each [default: 640x484; 1280x968 on a GPU that is not software].

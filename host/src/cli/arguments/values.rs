@@ -76,11 +76,12 @@ pub struct Octree(pub OctreeOptions);
 
 pub fn octree(text: &str) -> Result<Octree, String> {
     let mut options = OctreeOptions::default();
+    let mut given = Vec::new();
     for part in text.split(',').filter(|part| !part.trim().is_empty()) {
         let wanted = "give any of depth=0..13, leaf=N and budget=N, separated by commas";
         let (name, value) = part.split_once('=').ok_or(wanted)?;
         let value: u32 = value.trim().parse().map_err(|_| wanted)?;
-        match name.trim() {
+        match once(name.trim(), &mut given)? {
             "depth" if value <= MAX_DEPTH => options.depth = value,
             "leaf" if value >= 1 => options.leaf = Some(value),
             "budget" if (1..=256).contains(&value) => options.budget = value,
@@ -99,11 +100,12 @@ pub struct Grid(pub GridOptions);
 
 pub fn grid(text: &str) -> Result<Grid, String> {
     let mut options = GridOptions::default();
+    let mut given = Vec::new();
     for part in text.split(',').filter(|part| !part.trim().is_empty()) {
         let wanted = "give any of density=0.01..100 and budget=1..256, separated by commas";
         let (name, value) = part.split_once('=').ok_or(wanted)?;
         let value = value.trim();
-        match name.trim() {
+        match once(name.trim(), &mut given)? {
             "density" => options.density = value.parse().map_err(|_| wanted)?,
             "budget" => options.budget = value.parse().map_err(|_| wanted)?,
             _ => return Err(wanted.into()),
@@ -116,6 +118,15 @@ pub fn grid(text: &str) -> Result<Grid, String> {
         return Err("budget is 1 to 256".into());
     }
     Ok(Grid(options))
+}
+
+/// The name of a limit, unless it is among those that were given before.
+fn once<'a>(name: &'a str, given: &mut Vec<&'a str>) -> Result<&'a str, String> {
+    if given.contains(&name) {
+        return Err(format!("give {name} once"));
+    }
+    given.push(name);
+    Ok(name)
 }
 
 macro_rules! names {
@@ -244,6 +255,7 @@ mod tests {
             "budget=0",
             "budget=257",
             "leaf=3",
+            "density=1,density=1",
         ] {
             assert!(grid(bad).is_err(), "{bad}");
         }
@@ -257,5 +269,6 @@ mod tests {
         for bad in ["depth", "depth=14", "leaf=0", "budget=0", "size=3", "depth=-1"] {
             assert!(octree(bad).is_err(), "{bad}");
         }
+        assert_eq!(octree("leaf=4, leaf=5"), Err("give leaf once".into()));
     }
 }

@@ -35,6 +35,11 @@ impl<'a> Fields<'a> {
             .show(self.ui, |ui| rows(&mut Fields { ui, asked }));
     }
 
+    /// What the rows below are about.
+    pub fn heading(&mut self, text: &str) {
+        self.ui.strong(text);
+    }
+
     /// A row that says something; what would widen the panel is shown whole under the pointer only.
     pub fn text(&mut self, name: &str, text: impl Into<String>) {
         let text = text.into();

@@ -68,6 +68,11 @@ impl Layout {
         self.material = index;
         self.unfolded.insert(Section::Materials);
     }
+
+    /// What the open panel leaves of a window's width, pixels, where a point has so many.
+    pub fn width_beside(&self, window_width: u32, scale: f64) -> u32 {
+        window_width.saturating_sub((f64::from(self.width) * scale).ceil() as u32)
+    }
 }
 
 impl Default for Layout {
@@ -77,5 +82,25 @@ impl Default for Layout {
             unfolded: [Section::Picture, Section::Statistics].into(),
             material: 0,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::viewer::overlay::Overlay;
+
+    #[test]
+    fn what_lies_beside_the_panel_is_narrower() {
+        let layout = Layout {
+            width: 299.5,
+            ..Layout::default()
+        };
+        assert_eq!(layout.width_beside(640, 1.0), 340);
+        assert_eq!(layout.width_beside(640, 2.0), 41);
+        assert_eq!(layout.width_beside(200, 1.0), 0);
+        let columns = |width| Overlay::columns(width, 1);
+        assert_eq!(columns(layout.width_beside(640, 1.0)), 38);
+        assert_eq!(columns(layout.width_beside(200, 1.0)), 20, "as few as can be read");
     }
 }

@@ -31,11 +31,12 @@ pub fn show(fields: &mut Fields<'_>, facts: &Facts<'_>) {
 }
 
 fn structure(fields: &mut Fields<'_>, figures: &Figures) {
+    fields.heading("structure");
     fields.table("structure", |fields| {
         for (name, count) in [
             ("inner nodes", figures.inner),
             ("leaves", figures.filled),
-            ("references", figures.references),
+            ("triangles in leaves", figures.references),
             ("depth", figures.depth as usize),
             ("fullest leaf", figures.fullest as usize),
         ] {
@@ -45,6 +46,7 @@ fn structure(fields: &mut Fields<'_>, figures: &Figures) {
 }
 
 fn memory(fields: &mut Fields<'_>, memory: &Memory) {
+    fields.heading("memory");
     fields.table("memory", |fields| {
         for (name, bytes) in memory.arrays().into_iter().chain([("all", memory.total())]) {
             fields.text(name, format!("{} B", grouped(bytes)));

@@ -14,7 +14,7 @@ use crate::wires::visited;
 use glam::{DVec3, UVec2, Vec3};
 use oktant_shared::frame::Frame;
 use oktant_shared::hit::Hit;
-use oktant_shared::parts::Parts;
+use oktant_shared::parts::{Parts, TraversalKind};
 use oktant_shared::plane::PLANE;
 use oktant_shared::ray::Ray;
 use oktant_shared::render::sample_ray;
@@ -244,14 +244,16 @@ fn options(structure: &StructureOptions) -> String {
             let _ = write!(text, " --{name} {is}");
         }
     }
+    // Limits of what it does not traverse are refused.
     let (octree, grid) = (structure.octree, structure.grid);
-    if octree != usual.octree {
+    let traversal = structure.parts.traversal;
+    if traversal == TraversalKind::Octree && octree != usual.octree {
         let _ = write!(text, " --octree depth={},budget={}", octree.depth, octree.budget);
         if let Some(leaf) = octree.leaf {
             let _ = write!(text, ",leaf={leaf}");
         }
     }
-    if grid != usual.grid {
+    if traversal == TraversalKind::Grid && grid != usual.grid {
         let _ = write!(text, " --grid density={},budget={}", grid.density, grid.budget);
     }
     text
@@ -350,6 +352,11 @@ mod tests {
         };
         let several = replayed(Source::Several(vec![MeshSource::Balls; 2]));
         assert_eq!(several.command, None);
+        assert_eq!(
+            several.lines(80)[0].text,
+            "pinned: the ray of pixel 32, 24   Esc: unpin",
+            "its parts stay apart"
+        );
         let last = several.lines(80).pop().unwrap().text;
         assert_eq!(last, "oktant trace takes one file, without planes");
         assert!(replayed(Source::Mesh(MeshSource::Balls)).command.is_some());

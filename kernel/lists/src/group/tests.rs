@@ -70,7 +70,7 @@ fn each_sample_is_taken_once_and_added_in_its_order() {
                                 mark: Mark {
                                     seen: index,
                                     nearness: value,
-                                    ..Mark::of_level(of_entry(list[index as usize]).1)
+                                    ..Mark::of_level(&frame, of_entry(list[index as usize]).1)
                                 },
                             },
                         );

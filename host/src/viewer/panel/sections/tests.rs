@@ -2,11 +2,14 @@
 
 use super::*;
 use crate::names::Names;
+use crate::scene::Memory;
 use crate::source::Source;
 use crate::stereo::{Stereo, StereoMode};
+use crate::structure;
 use crate::view::View;
 use crate::viewer::caption::Caption;
 use crate::viewer::figures::Figures;
+use crate::viewer::panel::Inventory;
 use crate::viewer::recent::Recent;
 use crate::viewer::session::Session;
 use egui::{Context, Event, Key, Modifiers, PointerButton, Pos2, RawInput, Shape, pos2};
@@ -20,6 +23,7 @@ struct Window {
     prompt: Prompt,
     figures: Figures,
     recent: Recent,
+    inventory: Option<Inventory>,
 }
 
 impl Window {
@@ -42,6 +46,7 @@ impl Window {
             prompt: Prompt::default(),
             figures,
             recent: Recent::default(),
+            inventory: None,
         }
     }
 
@@ -49,7 +54,7 @@ impl Window {
     fn after(&mut self, session: &Session, events: Vec<Event>) -> (Vec<Input>, Vec<(String, Pos2)>) {
         let facts = Facts {
             session,
-            inventory: None,
+            inventory: self.inventory.as_ref(),
             names: &Names::default(),
             recent: &self.recent,
             wants_gpu: false,
@@ -220,4 +225,21 @@ fn a_step_is_typed() {
     assert!(!window.context.egui_wants_keyboard_input());
     let (_, texts) = window.after(&session, Vec::new());
     assert!(!texts.iter().any(|(text, _)| text.starts_with("set")), "it is closed");
+}
+
+#[test]
+fn no_two_figures_of_the_statistics_have_the_same_name() {
+    let session = session();
+    let mut window = Window::new();
+    window.layout.unfolded = [Section::Statistics].into();
+    window.inventory = Some(Inventory {
+        memory: Memory::default(),
+        structure: structure::Figures::default(),
+    });
+    window.after(&session, Vec::new());
+    let (_, texts) = window.after(&session, Vec::new());
+    for name in ["structure", "triangles in leaves", "memory", "references", "triangles"] {
+        let count = texts.iter().filter(|(text, _)| text == name).count();
+        assert_eq!(count, 1, "{name}: {texts:?}");
+    }
 }
