@@ -414,7 +414,7 @@ fn refined(frame: &Frame, known: &Known<'_>, pixel: UVec2) -> u32 {
     while (wanted < most) & (height > allowed(frame, wanted)) {
         wanted += 1;
     }
-    let is_looked_into = (level == SINGLE) & ((pixel.x + SHIFT * pixel.y) % APART == 0);
+    let is_looked_into = (level == SINGLE) & (pixel.x + SHIFT * pixel.y).is_multiple_of(APART);
     if (is_edge | is_looked_into) & (wanted == SINGLE) {
         wanted = SINGLE + 1;
     }
